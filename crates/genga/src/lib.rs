@@ -1,0 +1,7 @@
+//! **Genga** draws 3-D scenes as anime and American comics, in real time, on any [`wgpu`] device.
+//!
+//! Data flows one way: [`import`] → [`scene`] → [`render`], guided by a [`style`]. The library
+//! opens no window, keeps no global state and makes no device behind your back.
+
+pub mod scene;
+pub mod style;

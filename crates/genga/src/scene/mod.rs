@@ -1,0 +1,83 @@
+//! Plain scene data: what an importer makes and the renderer draws. No GPU here.
+//!
+//! The space is glTF's: right-handed, +Y up, metres, seconds, radians. Everything refers to
+//! everything else by index into the vectors of [`Scene`]; [`Scene::validate`] checks that all
+//! of them are in range, which the renderer relies on.
+
+mod camera;
+mod clip;
+mod light;
+mod material;
+mod mesh;
+mod node;
+mod pose;
+mod validate;
+
+pub use camera::{Camera, Projection};
+pub use clip::{Channel, ChannelTarget, Clip, Interpolation};
+pub use light::{Light, LightKind};
+pub use material::{
+    AlphaMode, Filter, Image, Material, MipFilter, Sampler, Texture, TextureRef, UvTransform, Wrap,
+};
+pub use mesh::{Mesh, MorphTarget, Primitive};
+pub use node::{Node, Skin, Transform};
+pub use pose::Pose;
+pub use validate::SceneError;
+
+/// A whole model or set: everything that can be drawn, posed and lit.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// A name for messages and output files, usually the file's stem.
+    pub name: String,
+    /// The node forest. A node's parent may come before or after it.
+    pub nodes: Vec<Node>,
+    /// Indices of the nodes without a parent that are drawn.
+    pub roots: Vec<usize>,
+    /// Meshes, referred to by [`Node::mesh`].
+    pub meshes: Vec<Mesh>,
+    /// Materials, referred to by [`Primitive::material`].
+    pub materials: Vec<Material>,
+    /// Textures, referred to by [`TextureRef::texture`].
+    pub textures: Vec<Texture>,
+    /// Decoded pictures, referred to by [`Texture::image`].
+    pub images: Vec<Image>,
+    /// Skins, referred to by [`Node::skin`].
+    pub skins: Vec<Skin>,
+    /// Animation clips.
+    pub clips: Vec<Clip>,
+    /// Cameras, referred to by [`Node::camera`].
+    pub cameras: Vec<Camera>,
+    /// Lights, referred to by [`Node::light`].
+    pub lights: Vec<Light>,
+}
+
+impl Scene {
+    /// The number of triangles in all meshes, each counted once per node that shows it.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.drawn_primitives().map(|primitive| primitive.indices.len() / 3).sum()
+    }
+
+    /// The number of vertices in all meshes, each counted once per node that shows it.
+    #[must_use]
+    pub fn vertex_count(&self) -> usize {
+        self.drawn_primitives().map(|primitive| primitive.positions.len()).sum()
+    }
+
+    /// The clip of that name, or `None`. An exact match wins over one that ignores case.
+    #[must_use]
+    pub fn find_clip(&self, name: &str) -> Option<usize> {
+        self.clips
+            .iter()
+            .position(|clip| clip.name == name)
+            .or_else(|| self.clips.iter().position(|clip| clip.name.eq_ignore_ascii_case(name)))
+    }
+
+    fn drawn_primitives(&self) -> impl Iterator<Item = &Primitive> {
+        self.nodes
+            .iter()
+            .filter_map(|node| node.mesh)
+            .filter_map(|mesh| self.meshes.get(mesh))
+            .flat_map(|mesh| &mesh.primitives)
+    }
+}

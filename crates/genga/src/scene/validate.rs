@@ -1,0 +1,183 @@
+use thiserror::Error;
+
+use super::Scene;
+
+/// Why a scene cannot be drawn.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+pub enum SceneError {
+    /// An index points past the end of what it refers to.
+    #[error("{what} refers to {target} {index}, but there are only {count}")]
+    OutOfRange {
+        /// What refers, such as `node 3 'Arm'`.
+        what: String,
+        /// What it refers to, such as `mesh`.
+        target: &'static str,
+        /// The index.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A node is its own ancestor or has two parents.
+    #[error(
+        "node {index} '{name}' is reached twice from the scene's roots: the nodes must form a tree"
+    )]
+    NotATree {
+        /// The node.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A vertex attribute has not one element per vertex.
+    #[error(
+        "mesh '{mesh}' has {count} {attribute} for {vertices} vertices: there must be one each"
+    )]
+    AttributeLength {
+        /// Name of the mesh.
+        mesh: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// Its length.
+        count: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A coordinate is not a finite number.
+    #[error("mesh '{mesh}' has a position that is not a finite number at vertex {vertex}")]
+    NotFinite {
+        /// Name of the mesh.
+        mesh: String,
+        /// The vertex.
+        vertex: usize,
+    },
+}
+
+impl Scene {
+    /// Checks that every index is in range, every attribute complete and the nodes a forest.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        let check = |what: &dyn Fn() -> String, target, index: Option<usize>, count| match index {
+            Some(index) if index >= count => {
+                Err(SceneError::OutOfRange { what: what(), target, index, count })
+            }
+            _ => Ok(()),
+        };
+        for (i, node) in self.nodes.iter().enumerate() {
+            let what = || format!("node {i} '{}'", node.name);
+            check(&what, "mesh", node.mesh, self.meshes.len())?;
+            check(&what, "skin", node.skin, self.skins.len())?;
+            check(&what, "camera", node.camera, self.cameras.len())?;
+            check(&what, "light", node.light, self.lights.len())?;
+            check(&what, "node", node.parent, self.nodes.len())?;
+            for &child in &node.children {
+                check(&what, "node", Some(child), self.nodes.len())?;
+            }
+        }
+        self.validate_tree()?;
+        for (i, skin) in self.skins.iter().enumerate() {
+            let what = || format!("skin {i} '{}'", skin.name);
+            for &joint in &skin.joints {
+                check(&what, "node", Some(joint), self.nodes.len())?;
+            }
+            let count = skin.joint_from_mesh.len();
+            check(&what, "inverse bind matrix", skin.joints.len().checked_sub(1), count)?;
+        }
+        for (i, texture) in self.textures.iter().enumerate() {
+            check(&|| format!("texture {i}"), "image", texture.image, self.images.len())?;
+        }
+        for (i, material) in self.materials.iter().enumerate() {
+            for texture in [&material.base_color_texture, &material.emissive_texture] {
+                let index = texture.map(|t| t.texture);
+                let what = || format!("material {i} '{}'", material.name);
+                check(&what, "texture", index, self.textures.len())?;
+            }
+        }
+        self.validate_meshes(&check)?;
+        for (i, clip) in self.clips.iter().enumerate() {
+            for channel in &clip.channels {
+                let what = || format!("clip {i} '{}'", clip.name);
+                check(&what, "node", Some(channel.node), self.nodes.len())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_tree(&self) -> Result<(), SceneError> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut stack = self.roots.clone();
+        while let Some(index) = stack.pop() {
+            let count = self.nodes.len();
+            let Some(node) = self.nodes.get(index) else {
+                let what = "the scene".to_owned();
+                return Err(SceneError::OutOfRange { what, target: "node", index, count });
+            };
+            if std::mem::replace(&mut seen[index], true) {
+                return Err(SceneError::NotATree { index, name: node.name.clone() });
+            }
+            stack.extend(&node.children);
+        }
+        Ok(())
+    }
+
+    fn validate_meshes(
+        &self,
+        check: &dyn Fn(
+            &dyn Fn() -> String,
+            &'static str,
+            Option<usize>,
+            usize,
+        ) -> Result<(), SceneError>,
+    ) -> Result<(), SceneError> {
+        let mut joint_counts = vec![usize::MAX; self.meshes.len()];
+        for node in &self.nodes {
+            if let (Some(mesh), Some(skin)) = (node.mesh, node.skin) {
+                joint_counts[mesh] = joint_counts[mesh].min(self.skins[skin].joints.len());
+            }
+        }
+        for (mesh, &joint_count) in self.meshes.iter().zip(&joint_counts) {
+            for primitive in &mesh.primitives {
+                let vertices = primitive.positions.len();
+                let what = || format!("mesh '{}'", mesh.name);
+                check(&what, "material", primitive.material, self.materials.len())?;
+                check(
+                    &what,
+                    "vertex",
+                    primitive.indices.iter().max().map(|&i| i as usize),
+                    vertices,
+                )?;
+                let length = |attribute, count: usize, may_be_empty: bool| {
+                    if count == vertices || (may_be_empty && count == 0) {
+                        Ok(())
+                    } else {
+                        let mesh = mesh.name.clone();
+                        Err(SceneError::AttributeLength { mesh, attribute, count, vertices })
+                    }
+                };
+                length("normals", primitive.normals.len(), false)?;
+                for uvs in &primitive.uvs {
+                    length("texture coordinates", uvs.len(), true)?;
+                }
+                length("vertex colours", primitive.colors.len(), true)?;
+                length("joints", primitive.joints.len(), true)?;
+                length("joint weights", primitive.weights.len(), true)?;
+                length("line widths", primitive.line_widths.len(), true)?;
+                if primitive.joints.len() != primitive.weights.len() {
+                    length("joint weights", primitive.weights.len(), false)?;
+                }
+                for target in &primitive.morph_targets {
+                    length("morph positions", target.positions.len(), true)?;
+                    length("morph normals", target.normals.len(), true)?;
+                }
+                if let Some(vertex) = primitive.positions.iter().position(|p| !p.is_finite()) {
+                    return Err(SceneError::NotFinite { mesh: mesh.name.clone(), vertex });
+                }
+                if joint_count != usize::MAX {
+                    let joint = primitive.joints.iter().flatten().max().map(|&j| j as usize);
+                    check(&what, "joint", joint, joint_count)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

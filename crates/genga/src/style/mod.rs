@@ -1,0 +1,55 @@
+//! How things are drawn: plain data, read from `*.style.toml` files. No GPU here.
+//!
+//! A style is complete and resolved: what a file left out has its default, what it extends is
+//! merged in. Pictures that it refers to are loaded with it.
+
+mod color;
+mod lines;
+mod overrides;
+mod paint;
+
+pub use color::Color;
+pub use lines::{Detect, Hull, LineMethod, LineSet, LineType, Lines, Rim};
+pub use overrides::{
+    BaseColorRange, IdTexture, LineOverride, Override, PaintOverride, Selector, VertexColorRange,
+};
+pub use paint::{
+    Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
+};
+
+/// A whole look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Style {
+    /// Version of the file format; 1.
+    pub version: u32,
+    /// Name for people.
+    pub name: String,
+    /// One sentence on what it is for.
+    pub description: String,
+    /// What stands behind everything.
+    pub background: Background,
+    /// Light for scenes that have none.
+    pub light: StyleLight,
+    /// How surfaces are filled.
+    pub paint: Paint,
+    /// How lines are found and drawn.
+    pub lines: Lines,
+    /// What differs for some objects, materials or colours. Later ones win, property by
+    /// property.
+    pub overrides: Vec<Override>,
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            version: 1,
+            name: String::new(),
+            description: String::new(),
+            background: Background::default(),
+            light: StyleLight::default(),
+            paint: Paint::default(),
+            lines: Lines::default(),
+            overrides: Vec::new(),
+        }
+    }
+}

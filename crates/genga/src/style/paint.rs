@@ -1,0 +1,153 @@
+use std::sync::Arc;
+
+use super::Color;
+use crate::scene::Image;
+
+/// What stands behind everything: one colour, or a gradient from top to bottom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Background {
+    /// Colour at the top.
+    pub color: Color,
+    /// Colour at the bottom; the same as at the top by default.
+    pub bottom: Option<Color>,
+}
+
+impl Default for Background {
+    fn default() -> Self {
+        Self { color: Color::WHITE, bottom: None }
+    }
+}
+
+/// The directional light that a style brings for scenes without lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StyleLight {
+    /// Where the light comes from, in degrees: 0 from the front, positive from the right.
+    pub azimuth_deg: f32,
+    /// Where the light comes from, in degrees: positive from above.
+    pub elevation_deg: f32,
+    /// What the angles turn with.
+    pub pinned_to: PinnedTo,
+    /// Whether it is used even where the model or scene has lights of its own.
+    pub replace_model_lights: bool,
+}
+
+impl Default for StyleLight {
+    fn default() -> Self {
+        Self {
+            azimuth_deg: -35.0,
+            elevation_deg: 40.0,
+            pinned_to: PinnedTo::Camera,
+            replace_model_lights: false,
+        }
+    }
+}
+
+/// What a light turns with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PinnedTo {
+    /// The camera: the same side is lit from everywhere.
+    #[default]
+    Camera,
+    /// The world: `front` is +Z, `right` is +X.
+    World,
+}
+
+/// How surfaces are filled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Paint {
+    /// Where the colour comes from before the ramp.
+    pub base: BaseColor,
+    /// Which values are multiplied and added.
+    pub blend_space: BlendSpace,
+    /// Tones from shade to light.
+    pub ramp: Ramp,
+    /// Added to the ramp coordinate T: positive keeps a surface lighter. In [−1, 1].
+    pub shade_bias: f32,
+}
+
+impl Default for Paint {
+    fn default() -> Self {
+        Self {
+            base: BaseColor::Model,
+            blend_space: BlendSpace::Display,
+            ramp: Ramp::default(),
+            shade_bias: 0.0,
+        }
+    }
+}
+
+/// Where a surface's colour comes from. In files: `"model"`, `"none"` or a colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum BaseColor {
+    /// The model's base colour: factor × texture × vertex colour.
+    #[default]
+    Model,
+    /// Nothing is painted; the background shows. Surfaces still hide what is behind them.
+    None,
+    /// One colour.
+    Fixed(Color),
+}
+
+/// Which values a style multiplies, adds and grades.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BlendSpace {
+    /// sRGB-encoded values, as painters and the papers do.
+    #[default]
+    Display,
+    /// Linear light.
+    Linear,
+}
+
+/// A one-dimensional gradient over `T = (N·L + 1)/2` (Suzuki 2004; one ramp over the sum of all
+/// lights): 0 is turned away from the light, 0.5 is the terminator, 1 faces the light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ramp {
+    /// 1 to 8 stops with rising `at`; the first one is at 0. Not used with an `image`.
+    pub stops: Vec<RampStop>,
+    /// False: each tone reaches from its `at` to the next stop's (cel). True: colours are
+    /// interpolated between stops (gradient).
+    pub smooth: bool,
+    /// A picture whose middle row is the ramp, left dark, right light; multiplied.
+    pub image: Option<Arc<Image>>,
+    /// Factor on the sum of lights before it is clamped to [−1, 1].
+    pub gain: f32,
+}
+
+impl Default for Ramp {
+    fn default() -> Self {
+        Self {
+            stops: vec![RampStop {
+                at: 0.0,
+                color: Color::WHITE,
+                softness: 0.0,
+                blend: ToneBlend::Multiply,
+            }],
+            smooth: false,
+            image: None,
+            gain: 1.0,
+        }
+    }
+}
+
+/// One tone of a ramp.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RampStop {
+    /// Where on the ramp it begins, in [0, 1].
+    pub at: f32,
+    /// The tone; its alpha is the strength of the blend.
+    pub color: Color,
+    /// Width in T over which it blends with the tone before; 0 for a hard (antialiased) edge.
+    pub softness: f32,
+    /// How the tone meets the base colour.
+    pub blend: ToneBlend,
+}
+
+/// How a tone meets the base colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToneBlend {
+    /// Base colour × tone.
+    #[default]
+    Multiply,
+    /// The tone instead of the base colour.
+    Replace,
+}
