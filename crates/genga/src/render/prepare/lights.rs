@@ -1,0 +1,95 @@
+//! Lights as the ramp sees them, for one camera.
+
+use glam::{Affine3A, Vec3, Vec4};
+
+use crate::render::generated::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT, Light};
+use crate::scene::{LightKind, Pose, Scene};
+use crate::style::{PinnedTo, StyleLight};
+
+/// A light of the scene with the place of its node.
+#[derive(Clone, Debug)]
+pub(crate) struct PlacedLight {
+    kind: LightKind,
+    strength: f32,
+    world_from_light: Affine3A,
+    pinned_to_camera: bool,
+}
+
+/// The lights of a posed scene; empty if the style's own light is to be used.
+pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> Vec<PlacedLight> {
+    if style.replace_model_lights {
+        return Vec::new();
+    }
+    let nodes = scene.nodes.iter().enumerate().filter(|&(i, _)| pose.visible[i]);
+    nodes
+        .filter_map(|(i, node)| {
+            let light = scene.lights.get(node.light?)?;
+            let luminance = light.color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+            Some(PlacedLight {
+                kind: light.kind,
+                strength: (light.intensity * luminance).max(0.0),
+                world_from_light: pose.world_from_node[i],
+                pinned_to_camera: light.pinned_to_camera,
+            })
+        })
+        .filter(|light| light.strength > 0.0)
+        .collect()
+}
+
+/// The lights for a camera. Their weights `w_i` add up to 1.
+pub(crate) fn lights_in_view(
+    placed: &[PlacedLight],
+    style: &StyleLight,
+    world_from_camera: &Affine3A,
+) -> Vec<Light> {
+    if placed.is_empty() {
+        return vec![style_light(style, world_from_camera)];
+    }
+    let total: f32 = placed.iter().map(|light| light.strength).sum();
+    placed
+        .iter()
+        .map(|light| {
+            let frame = if light.pinned_to_camera {
+                *world_from_camera * light.world_from_light
+            } else {
+                light.world_from_light
+            };
+            // A light shines along its node's −Z.
+            let back = Vec3::from(frame.matrix3.z_axis).normalize_or(Vec3::Z);
+            let (kind, direction, range, cones) = match light.kind {
+                LightKind::Directional => (LIGHT_DIRECTIONAL, back, None, [1.0, 0.0]),
+                LightKind::Point { range } => (LIGHT_POINT, -back, range, [1.0, 0.0]),
+                LightKind::Spot { range, inner_angle, outer_angle } => {
+                    (LIGHT_SPOT, -back, range, [inner_angle.cos(), outer_angle.cos()])
+                }
+            };
+            Light {
+                position: Vec3::from(frame.translation).extend(1.0),
+                direction: direction.extend(0.0),
+                factors: Vec4::new(light.strength / total, range.unwrap_or(0.0), cones[0], cones[1]),
+                kind,
+                reserved_0: 0,
+                reserved_1: 0,
+                reserved_2: 0,
+            }
+        })
+        .collect()
+}
+
+fn style_light(style: &StyleLight, world_from_camera: &Affine3A) -> Light {
+    let (sin_a, cos_a) = style.azimuth_deg.to_radians().sin_cos();
+    let (sin_e, cos_e) = style.elevation_deg.to_radians().sin_cos();
+    let mut direction = Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e);
+    if style.pinned_to == PinnedTo::Camera {
+        direction = world_from_camera.transform_vector3(direction);
+    }
+    Light {
+        position: Vec4::ZERO,
+        direction: direction.normalize_or(Vec3::Y).extend(0.0),
+        factors: Vec4::new(1.0, 0.0, 1.0, 0.0),
+        kind: LIGHT_DIRECTIONAL,
+        reserved_0: 0,
+        reserved_1: 0,
+        reserved_2: 0,
+    }
+}
