@@ -3,5 +3,7 @@
 //! Data flows one way: [`import`] → [`scene`] → [`render`], guided by a [`style`]. The library
 //! opens no window, keeps no global state and makes no device behind your back.
 
+#[cfg(feature = "import")]
+pub mod import;
 pub mod scene;
 pub mod style;

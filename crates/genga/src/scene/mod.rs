@@ -4,6 +4,7 @@
 //! everything else by index into the vectors of [`Scene`]; [`Scene::validate`] checks that all
 //! of them are in range, which the renderer relies on.
 
+mod bounds;
 mod camera;
 mod clip;
 mod light;
@@ -13,6 +14,7 @@ mod node;
 mod pose;
 mod validate;
 
+pub use bounds::Aabb;
 pub use camera::{Camera, Projection};
 pub use clip::{Channel, ChannelTarget, Clip, Interpolation};
 pub use light::{Light, LightKind};

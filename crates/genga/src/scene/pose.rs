@@ -64,19 +64,24 @@ impl Pose {
         let n = scene.nodes.len();
         let mut world_from_node = vec![Affine3A::IDENTITY; n];
         let mut visible = vec![false; n];
-        // Depth first from the roots; `visible` also stops a cycle that validation missed.
-        let mut stack: Vec<(usize, Affine3A)> =
-            scene.roots.iter().rev().map(|&root| (root, Affine3A::IDENTITY)).collect();
-        while let Some((index, world_from_parent)) = stack.pop() {
-            if index >= n || visible[index] {
-                continue;
+        // Depth first; `placed` also stops a cycle that validation missed.
+        let mut place = |roots: &mut dyn Iterator<Item = usize>, placed: &mut Vec<bool>| {
+            let mut stack: Vec<_> = roots.map(|root| (root, Affine3A::IDENTITY)).collect();
+            while let Some((index, world_from_parent)) = stack.pop() {
+                let Some(placed) = placed.get_mut(index).filter(|placed| !**placed) else {
+                    continue;
+                };
+                *placed = true;
+                world_from_node[index] = world_from_parent * locals[index].parent_from_node();
+                for &child in &scene.nodes[index].children {
+                    stack.push((child, world_from_node[index]));
+                }
             }
-            visible[index] = true;
-            world_from_node[index] = world_from_parent * locals[index].parent_from_node();
-            for &child in &scene.nodes[index].children {
-                stack.push((child, world_from_node[index]));
-            }
-        }
+        };
+        place(&mut scene.roots.iter().copied(), &mut visible);
+        // Joints may stand outside of what is drawn.
+        let parentless = |&index: &usize| scene.nodes[index].parent.is_none();
+        place(&mut (0..n).filter(parentless), &mut visible.clone());
         let mut overrides = weights.unwrap_or_else(|| vec![None; n]);
         let morph_weights = (0..n)
             .map(|index| {
@@ -108,7 +113,9 @@ impl Pose {
             skin.joints
                 .iter()
                 .zip(&skin.joint_from_mesh)
-                .map(|(&joint, joint_from_mesh)| self.world_from_node[joint] * *joint_from_mesh)
+                .map(|(&joint, joint_from_mesh)| {
+                    self.world_from_node.get(joint).copied().unwrap_or_default() * *joint_from_mesh
+                })
                 .collect(),
         )
     }

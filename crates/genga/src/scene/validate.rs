@@ -51,18 +51,27 @@ pub enum SceneError {
     },
 }
 
+/// Checks an index, if there is one; `what` names who refers.
+fn check(
+    what: &dyn Fn() -> String,
+    target: &'static str,
+    index: Option<usize>,
+    count: usize,
+) -> Result<(), SceneError> {
+    match index {
+        Some(index) if index >= count => {
+            Err(SceneError::OutOfRange { what: what(), target, index, count })
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Scene {
     /// Checks that every index is in range, every attribute complete and the nodes a forest.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), SceneError> {
-        let check = |what: &dyn Fn() -> String, target, index: Option<usize>, count| match index {
-            Some(index) if index >= count => {
-                Err(SceneError::OutOfRange { what: what(), target, index, count })
-            }
-            _ => Ok(()),
-        };
         for (i, node) in self.nodes.iter().enumerate() {
             let what = || format!("node {i} '{}'", node.name);
             check(&what, "mesh", node.mesh, self.meshes.len())?;
@@ -93,7 +102,7 @@ impl Scene {
                 check(&what, "texture", index, self.textures.len())?;
             }
         }
-        self.validate_meshes(&check)?;
+        self.validate_meshes()?;
         for (i, clip) in self.clips.iter().enumerate() {
             for channel in &clip.channels {
                 let what = || format!("clip {i} '{}'", clip.name);
@@ -120,15 +129,7 @@ impl Scene {
         Ok(())
     }
 
-    fn validate_meshes(
-        &self,
-        check: &dyn Fn(
-            &dyn Fn() -> String,
-            &'static str,
-            Option<usize>,
-            usize,
-        ) -> Result<(), SceneError>,
-    ) -> Result<(), SceneError> {
+    fn validate_meshes(&self) -> Result<(), SceneError> {
         let mut joint_counts = vec![usize::MAX; self.meshes.len()];
         for node in &self.nodes {
             if let (Some(mesh), Some(skin)) = (node.mesh, node.skin) {

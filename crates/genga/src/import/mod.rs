@@ -1,0 +1,112 @@
+//! Reading models: glTF 2.0 (`.gltf`, `.glb`) and Wavefront OBJ into a [`Scene`].
+//!
+//! Importing is strict about what it cannot understand and forgiving about the rest: a broken
+//! file is one [`ImportError`], while everything that can still be drawn without its missing
+//! parts is drawn, with a sentence in [`Imported::warnings`].
+//!
+//! Every size that a file claims is checked against the bytes that are really there before
+//! memory is taken, and all geometry together may not grow over 64 MiB plus 64 times the
+//! file's own size.
+
+mod error;
+mod files;
+mod gltf;
+mod normals;
+mod picture;
+mod warnings;
+
+use std::io;
+use std::path::Path;
+
+pub use error::{ImportError, Problem};
+pub use files::no_files;
+
+use crate::scene::Scene;
+use warnings::Warnings;
+
+/// A model that was read, and what was wrong with it.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The model. It passes [`Scene::validate`].
+    pub scene: Scene,
+    /// One sentence each for what was left out or repaired, at most a few dozen.
+    pub warnings: Vec<String>,
+}
+
+/// A kind of model file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF 2.0, as text (`.gltf`) or binary (`.glb`).
+    Gltf,
+}
+
+impl Format {
+    /// The format that a file name's ending stands for.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        let (_, ending) = name.rsplit_once('.')?;
+        match ending.to_ascii_lowercase().as_str() {
+            "gltf" | "glb" | "vrm" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+
+    /// The format that a file's first bytes look like.
+    #[must_use]
+    pub fn from_content(bytes: &[u8]) -> Option<Self> {
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+        (bytes.starts_with(b"glTF") || text.starts_with(b"{")).then_some(Self::Gltf)
+    }
+}
+
+/// Reads a model file and the files that it refers to.
+///
+/// References are relative to the file's folder; `..` in them is followed, since game assets
+/// share their textures that way, while absolute paths and URLs are refused.
+///
+/// # Errors
+/// If the file or a needed part of it cannot be read or is broken.
+pub fn load(path: &Path) -> Result<Imported, ImportError> {
+    let file = path.display().to_string();
+    let bytes = match files::read_file(path) {
+        Ok(bytes) => bytes,
+        Err(error) => return Err(ImportError { file, problem: Problem::Read(error) }),
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut imported =
+        from_bytes(&file, &bytes, None, &|relative| files::read_file(&folder.join(relative)))?;
+    if let Some(stem) = path.file_stem() {
+        imported.scene.name = stem.to_string_lossy().into_owned();
+    }
+    Ok(imported)
+}
+
+/// Reads a model from memory.
+///
+/// `name` is used in messages, as the scene's name and, by its ending, for the format if
+/// `format` is `None`; an unknown ending is decided by the content. `files` gives the bytes of a
+/// file that the model refers to by a relative path (see [`no_files`]).
+///
+/// # Errors
+/// If the model or a needed part of it cannot be read or is broken.
+pub fn from_bytes(
+    name: &str,
+    bytes: &[u8],
+    format: Option<Format>,
+    files: &dyn Fn(&str) -> io::Result<Vec<u8>>,
+) -> Result<Imported, ImportError> {
+    let read = || {
+        let format = format
+            .or_else(|| Format::from_name(name))
+            .or_else(|| Format::from_content(bytes))
+            .ok_or(Problem::UnknownFormat)?;
+        let mut warnings = Warnings::default();
+        let mut scene = match format {
+            Format::Gltf => gltf::read(bytes, files, &mut warnings)?,
+        };
+        name.clone_into(&mut scene.name);
+        scene.validate()?;
+        Ok(Imported { scene, warnings: warnings.into_sentences() })
+    };
+    read().map_err(|problem| ImportError { file: name.to_owned(), problem })
+}

@@ -1,0 +1,142 @@
+use glam::{Affine3A, Vec3, Vec3A};
+
+use super::{Mesh, Pose, Primitive, Scene};
+
+/// A box along the axes that is not empty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// The corner with the least coordinates.
+    pub min: Vec3,
+    /// The corner with the greatest coordinates.
+    pub max: Vec3,
+}
+
+impl Aabb {
+    /// The box of a single point.
+    #[must_use]
+    pub fn from_point(point: Vec3) -> Self {
+        Self { min: point, max: point }
+    }
+
+    /// The least box that holds both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self { min: self.min.min(other.min), max: self.max.max(other.max) }
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(self) -> Vec3 {
+        // Halved first, so that opposite huge corners do not overflow.
+        self.min * 0.5 + self.max * 0.5
+    }
+
+    /// Lengths of the edges.
+    #[must_use]
+    pub fn size(self) -> Vec3 {
+        self.max - self.min
+    }
+
+    /// Radius of the sphere about the centre through the corners.
+    #[must_use]
+    pub fn radius(self) -> f32 {
+        (self.size().as_dvec3() * 0.5).length() as f32
+    }
+}
+
+impl Scene {
+    /// The box around all triangles' corners in world space at a pose, with morph targets and
+    /// skins applied; `None` if nothing is drawn.
+    ///
+    /// It visits every vertex on the CPU. Places that are not finite do not count.
+    #[must_use]
+    pub fn bounds(&self, pose: &Pose) -> Option<Aabb> {
+        let mut bounds = Bounds::default();
+        for (index, node) in self.nodes.iter().enumerate() {
+            let Some(mesh) = node.mesh.and_then(|mesh| self.meshes.get(mesh)) else { continue };
+            if !pose.visible.get(index).copied().unwrap_or(false) {
+                continue;
+            }
+            let world_from_node = pose.world_from_node.get(index).copied().unwrap_or_default();
+            let morph_weights = pose.morph_weights.get(index).map_or(&[][..], Vec::as_slice);
+            let world_from_rest = pose.world_from_rest(self, index).unwrap_or_default();
+            bounds.add_mesh(mesh, &world_from_node, &world_from_rest, morph_weights);
+        }
+        bounds.finish()
+    }
+}
+
+/// A box that grows; empty at first.
+struct Bounds {
+    min: Vec3A,
+    max: Vec3A,
+}
+
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { min: Vec3A::INFINITY, max: Vec3A::NEG_INFINITY }
+    }
+}
+
+impl Bounds {
+    fn add(&mut self, point: Vec3A) {
+        if point.is_finite() {
+            self.min = self.min.min(point);
+            self.max = self.max.max(point);
+        }
+    }
+
+    fn finish(&self) -> Option<Aabb> {
+        self.min.cmple(self.max).all().then(|| Aabb { min: self.min.into(), max: self.max.into() })
+    }
+
+    fn add_mesh(
+        &mut self,
+        mesh: &Mesh,
+        world_from_node: &Affine3A,
+        world_from_rest: &[Affine3A],
+        morph_weights: &[f32],
+    ) {
+        for primitive in mesh.primitives.iter().filter(|p| !p.indices.is_empty()) {
+            let morphed;
+            let positions = if morph_weights.iter().any(|&weight| weight != 0.0) {
+                morphed = morphed_positions(primitive, morph_weights);
+                &morphed
+            } else {
+                &primitive.positions
+            };
+            if world_from_rest.is_empty() || primitive.joints.is_empty() {
+                for &position in positions {
+                    self.add(world_from_node.transform_point3a(position.into()));
+                }
+                continue;
+            }
+            for (&position, (joints, weights)) in
+                positions.iter().zip(primitive.joints.iter().zip(&primitive.weights))
+            {
+                let position = Vec3A::from(position);
+                let mut point = Vec3A::ZERO;
+                for (&joint, &weight) in joints.iter().zip(weights) {
+                    if weight > 0.0
+                        && let Some(matrix) = world_from_rest.get(usize::from(joint))
+                    {
+                        point += matrix.transform_point3a(position) * weight;
+                    }
+                }
+                self.add(point);
+            }
+        }
+    }
+}
+
+fn morphed_positions(primitive: &Primitive, morph_weights: &[f32]) -> Vec<Vec3> {
+    let mut positions = primitive.positions.clone();
+    for (target, &weight) in primitive.morph_targets.iter().zip(morph_weights) {
+        if weight != 0.0 {
+            for (position, &offset) in positions.iter_mut().zip(&target.positions) {
+                *position += offset * weight;
+            }
+        }
+    }
+    positions
+}
