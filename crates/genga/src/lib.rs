@@ -5,3 +5,6 @@
 
 pub mod scene;
 pub mod style;
+mod toml_file;
+
+pub use toml_file::FileError;
