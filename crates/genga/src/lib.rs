@@ -7,3 +7,6 @@
 pub mod import;
 pub mod scene;
 pub mod style;
+mod toml_file;
+
+pub use toml_file::FileError;

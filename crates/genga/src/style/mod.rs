@@ -2,13 +2,37 @@
 //!
 //! A style is complete and resolved: what a file left out has its default, what it extends is
 //! merged in. Pictures that it refers to are loaded with it.
+//!
+//! ```
+//! use genga::style::Style;
+//!
+//! let style = Style::from_toml_str(
+//!     r##"
+//!     version = 1
+//!     extends = "american-comic"
+//!     [background]
+//!     color = "#fff4d8"
+//!     "##,
+//! )?;
+//! assert_eq!(style.background.color.to_string(), "#fff4d8");
+//! # Ok::<(), genga::FileError>(())
+//! ```
 
 mod color;
+mod file;
+mod globs;
 mod lines;
+mod merge;
 mod overrides;
 mod paint;
+mod picture;
+mod presets;
+#[cfg(test)]
+mod tests;
 
-pub use color::Color;
+pub use color::{Color, ColorError};
+pub use file::{StyleError, json_schema};
+pub use globs::{GlobError, Globs};
 pub use lines::{Detect, Hull, LineMethod, LineSet, LineType, Lines, Rim};
 pub use overrides::{
     BaseColorRange, IdTexture, LineOverride, Override, PaintOverride, Selector, VertexColorRange,

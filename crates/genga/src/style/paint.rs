@@ -1,10 +1,16 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::Color;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{Color, picture};
 use crate::scene::Image;
+use crate::toml_file::list_with;
 
 /// What stands behind everything: one colour, or a gradient from top to bottom.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Background {
     /// Colour at the top.
     pub color: Color,
@@ -19,11 +25,14 @@ impl Default for Background {
 }
 
 /// The directional light that a style brings for scenes without lights.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct StyleLight {
     /// Where the light comes from, in degrees: 0 from the front, positive from the right.
+    #[schemars(range(min = -360, max = 360))]
     pub azimuth_deg: f32,
     /// Where the light comes from, in degrees: positive from above.
+    #[schemars(range(min = -90, max = 90))]
     pub elevation_deg: f32,
     /// What the angles turn with.
     pub pinned_to: PinnedTo,
@@ -43,7 +52,8 @@ impl Default for StyleLight {
 }
 
 /// What a light turns with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum PinnedTo {
     /// The camera: the same side is lit from everywhere.
     #[default]
@@ -53,7 +63,8 @@ pub enum PinnedTo {
 }
 
 /// How surfaces are filled.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Paint {
     /// Where the colour comes from before the ramp.
     pub base: BaseColor,
@@ -62,6 +73,7 @@ pub struct Paint {
     /// Tones from shade to light.
     pub ramp: Ramp,
     /// Added to the ramp coordinate T: positive keeps a surface lighter. In [−1, 1].
+    #[schemars(range(min = -1, max = 1))]
     pub shade_bias: f32,
 }
 
@@ -89,7 +101,8 @@ pub enum BaseColor {
 }
 
 /// Which values a style multiplies, adds and grades.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum BlendSpace {
     /// sRGB-encoded values, as painters and the papers do.
     #[default]
@@ -100,16 +113,22 @@ pub enum BlendSpace {
 
 /// A one-dimensional gradient over `T = (N·L + 1)/2` (Suzuki 2004; one ramp over the sum of all
 /// lights): 0 is turned away from the light, 0.5 is the terminator, 1 faces the light.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct Ramp {
     /// 1 to 8 stops with rising `at`; the first one is at 0. Not used with an `image`.
+    #[serde(deserialize_with = "stops")]
+    #[schemars(length(min = 1, max = 8))]
     pub stops: Vec<RampStop>,
     /// False: each tone reaches from its `at` to the next stop's (cel). True: colours are
     /// interpolated between stops (gradient).
     pub smooth: bool,
     /// A picture whose middle row is the ramp, left dark, right light; multiplied.
+    #[serde(deserialize_with = "picture::load_some")]
+    #[schemars(with = "Option<String>")]
     pub image: Option<Arc<Image>>,
     /// Factor on the sum of lights before it is clamped to [−1, 1].
+    #[schemars(range(min = 0))]
     pub gain: f32,
 }
 
@@ -130,24 +149,80 @@ impl Default for Ramp {
 }
 
 /// One tone of a ramp.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct RampStop {
     /// Where on the ramp it begins, in [0, 1].
+    #[schemars(range(min = 0, max = 1))]
     pub at: f32,
     /// The tone; its alpha is the strength of the blend.
     pub color: Color,
     /// Width in T over which it blends with the tone before; 0 for a hard (antialiased) edge.
+    #[serde(default)]
+    #[schemars(range(min = 0, max = 1))]
     pub softness: f32,
     /// How the tone meets the base colour.
+    #[serde(default)]
     pub blend: ToneBlend,
 }
 
 /// How a tone meets the base colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum ToneBlend {
     /// Base colour × tone.
     #[default]
     Multiply,
     /// The tone instead of the base colour.
     Replace,
+}
+
+/// Stops rise from 0.
+fn stops<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<RampStop>, D::Error> {
+    list_with(deserializer, |before: &[RampStop], stop| match before.last() {
+        None if stop.at != 0.0 => Err(format!("must begin with a stop at 0, not at {}", stop.at)),
+        Some(last) if stop.at <= last.at => Err(format!(
+            "must be in rising order, but one at {} follows one at {}",
+            stop.at, last.at
+        )),
+        _ => Ok(()),
+    })
+}
+
+impl<'de> Deserialize<'de> for BaseColor {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match String::deserialize(deserializer)?.as_str() {
+            "model" => Ok(Self::Model),
+            "none" => Ok(Self::None),
+            text => text.parse().map(Self::Fixed).map_err(|_| {
+                serde::de::Error::custom(
+                    "must be \"model\", \"none\" or a colour such as \"#ff8800\"",
+                )
+            }),
+        }
+    }
+}
+
+impl Serialize for BaseColor {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Model => serializer.serialize_str("model"),
+            Self::None => serializer.serialize_str("none"),
+            Self::Fixed(color) => color.serialize(serializer),
+        }
+    }
+}
+
+impl JsonSchema for BaseColor {
+    fn schema_name() -> Cow<'static, str> {
+        "BaseColor".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Where a surface's colour comes from: \"model\" (its own colours), \"none\" (the background shows) or one colour such as \"#ff8800\".",
+            "type": "string",
+            "pattern": "^(model|none|#([0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8}))$",
+        })
+    }
 }

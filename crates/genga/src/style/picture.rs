@@ -1,0 +1,37 @@
+//! Pictures that a style refers to by path.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use crate::scene::Image;
+
+/// The picture at the path in the file (made absolute or relative to the current directory).
+pub(super) fn load<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Image>, D::Error> {
+    let path = String::deserialize(deserializer)?;
+    open(Path::new(&path)).map(Arc::new).map_err(D::Error::custom)
+}
+
+/// As [`load`], for a key that may be missing.
+pub(super) fn load_some<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Arc<Image>>, D::Error> {
+    load(deserializer).map(Some)
+}
+
+fn open(path: &Path) -> Result<Image, String> {
+    let shown = path.display();
+    let picture = image::ImageReader::open(path)
+        .and_then(image::ImageReader::with_guessed_format)
+        .map_err(|e| format!("must be a picture, but '{shown}' cannot be read: {e}"))?
+        .decode()
+        .map_err(|e| format!("must be a picture, but '{shown}' cannot be decoded: {e}"))?
+        .into_rgba8();
+    let (width, height) = picture.dimensions();
+    if width == 0 || height == 0 {
+        return Err(format!("must be a picture, but '{shown}' is empty"));
+    }
+    Ok(Image { name: shown.to_string(), width, height, rgba: picture.into_raw() })
+}
