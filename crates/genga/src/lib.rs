@@ -4,4 +4,5 @@
 //! opens no window, keeps no global state and makes no device behind your back.
 
 pub mod scene;
+pub mod shapes;
 pub mod style;
