@@ -5,6 +5,7 @@
 
 #[cfg(feature = "import")]
 pub mod import;
+pub mod render;
 pub mod scene;
 pub mod shapes;
 pub mod style;

@@ -32,4 +32,6 @@ pub struct Light {
     pub color: Vec3,
     /// Lux for directional lights, candela for the others, ≥ 0.
     pub intensity: f32,
+    /// Whether its node's place is meant in camera space rather than in the world.
+    pub pinned_to_camera: bool,
 }

@@ -84,16 +84,20 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
 }
 
 fn encoded(color: vec4f) -> vec4f {
+    if (color.a <= 0.0) {
+        return vec4f(0.0);
+    }
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     let linear_output = (frame.flags & FRAME_OUTPUT_LINEAR) != 0u;
-    if (linear_blend == linear_output || color.a <= 0.0) {
-        return color;
+    var straight = color.rgb / color.a;
+    if (linear_output && !linear_blend) {
+        straight = linear_from_display(straight);
     }
-    let straight = color.rgb / color.a;
-    if (linear_output) {
-        return vec4f(linear_from_display(straight) * color.a, color.a);
+    if (linear_blend && !linear_output) {
+        straight = display_from_linear(straight);
     }
-    return vec4f(display_from_linear(straight) * color.a, color.a);
+    let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
+    return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
 }
 
 struct Frame {
@@ -127,6 +131,8 @@ const FRAME_OUTPUT_LINEAR: u32 = 8u;
 const FRAME_SHOW_PAINT: u32 = 16u;
 
 const FRAME_SHOW_LINES: u32 = 32u;
+
+const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
 
 const METHOD_CONTOUR: u32 = 1u;
 

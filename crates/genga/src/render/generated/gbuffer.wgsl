@@ -82,10 +82,8 @@ fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
 
 fn material_sample(in: Surface) -> MaterialSample {
     let draw = draws[in.draw];
-    let base_uv = select(in.uv0, in.uv1, (draw.flags & DRAW_BASE_UV1) != 0u);
-    let emissive_uv = select(in.uv0, in.uv1, (draw.flags & DRAW_EMISSIVE_UV1) != 0u);
-    let texel = textureSample(base_color_texture, base_color_sampler, transformed_uv(base_uv, draw.base_uv_u, draw.base_uv_v));
-    let glow = textureSample(emissive_texture, emissive_sampler, transformed_uv(emissive_uv, draw.emissive_uv_u, draw.emissive_uv_v));
+    let texel = textureSample(base_color_texture, base_color_sampler, transformed_uv(in.uv0, draw.base_uv_u, draw.base_uv_v));
+    let glow = textureSample(emissive_texture, emissive_sampler, transformed_uv(in.uv1, draw.emissive_uv_u, draw.emissive_uv_v));
     let factor = draw.base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
@@ -221,10 +219,6 @@ struct Draw {
 const DRAW_ALPHA_MASK: u32 = 2u;
 
 const DRAW_ALPHA_BLEND: u32 = 4u;
-
-const DRAW_BASE_UV1: u32 = 32u;
-
-const DRAW_EMISSIVE_UV1: u32 = 64u;
 
 struct Rule {
     conditions: u32,

@@ -211,10 +211,6 @@ const DRAW_ALPHA_MASK: u32 = 2u;
 
 const DRAW_ALPHA_BLEND: u32 = 4u;
 
-const DRAW_BASE_UV1: u32 = 32u;
-
-const DRAW_EMISSIVE_UV1: u32 = 64u;
-
 struct Rule {
     conditions: u32,
     id_tolerance: f32,
@@ -323,6 +319,53 @@ fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), in.uv0, in.uv1, in.color, in.line_width, in.draw);
 }
 
+fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
+    let ndc = clip.xy / clip.w;
+    return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn tile_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
+    if (clip.w > 0.5 * frame.depth_range.x) {
+        let pixels = picture_from_clip(frame, clip);
+        if (all(abs(pixels) < vec2f(65536.0))) {
+            let grid = 256.0 * texels_per_pixel;
+            let snapped = round(pixels * grid) / grid;
+            let ndc = ((snapped - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
+            return vec4f(ndc * clip.w, clip.z, clip.w);
+        }
+    }
+    let scale = frame.picture_size / frame.tile_size;
+    let offset = (frame.picture_size - 2.0 * frame.tile_origin) / frame.tile_size - 1.0;
+    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
+}
+
+fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.eye.xyz;
+    }
+    return normalize(frame.eye.xyz - p_in_world);
+}
+
+fn footprint(frame: Frame, distance: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.pixel_footprint;
+    }
+    return frame.pixel_footprint * distance;
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn octahedral_unpack(bits: u32) -> vec3f {
+    let p = unpack2x16snorm(bits);
+    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) {
+        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
+    }
+    return normalize(n);
+}
+
 struct MaterialSample {
     base: vec3f,
     alpha: f32,
@@ -336,10 +379,8 @@ fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
 
 fn material_sample(in: Surface) -> MaterialSample {
     let draw = draws[in.draw];
-    let base_uv = select(in.uv0, in.uv1, (draw.flags & DRAW_BASE_UV1) != 0u);
-    let emissive_uv = select(in.uv0, in.uv1, (draw.flags & DRAW_EMISSIVE_UV1) != 0u);
-    let texel = textureSample(base_color_texture, base_color_sampler, transformed_uv(base_uv, draw.base_uv_u, draw.base_uv_v));
-    let glow = textureSample(emissive_texture, emissive_sampler, transformed_uv(emissive_uv, draw.emissive_uv_u, draw.emissive_uv_v));
+    let texel = textureSample(base_color_texture, base_color_sampler, transformed_uv(in.uv0, draw.base_uv_u, draw.base_uv_v));
+    let glow = textureSample(emissive_texture, emissive_sampler, transformed_uv(in.uv1, draw.emissive_uv_u, draw.emissive_uv_v));
     let factor = draw.base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
@@ -481,51 +522,4 @@ fn ramp_color(look: Look, t: f32, width: f32) -> RampColor {
 
 fn apply_ramp(base: vec3f, ramp: RampColor) -> vec3f {
     return mix(base * ramp.color, ramp.color, ramp.replace);
-}
-
-fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
-    let ndc = clip.xy / clip.w;
-    return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
-}
-
-fn tile_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
-    if (clip.w > 0.5 * frame.depth_range.x) {
-        let pixels = picture_from_clip(frame, clip);
-        if (all(abs(pixels) < vec2f(65536.0))) {
-            let grid = 256.0 * texels_per_pixel;
-            let snapped = round(pixels * grid) / grid;
-            let ndc = ((snapped - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
-            return vec4f(ndc * clip.w, clip.z, clip.w);
-        }
-    }
-    let scale = frame.picture_size / frame.tile_size;
-    let offset = (frame.picture_size - 2.0 * frame.tile_origin) / frame.tile_size - 1.0;
-    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
-}
-
-fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return frame.eye.xyz;
-    }
-    return normalize(frame.eye.xyz - p_in_world);
-}
-
-fn footprint(frame: Frame, distance: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return frame.pixel_footprint;
-    }
-    return frame.pixel_footprint * distance;
-}
-
-fn sign_not_zero(v: vec2f) -> vec2f {
-    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn octahedral_unpack(bits: u32) -> vec3f {
-    let p = unpack2x16snorm(bits);
-    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) {
-        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
-    }
-    return normalize(n);
 }

@@ -92,42 +92,6 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
     return coverage;
 }
 
-@group(0) @binding(0)
-var<uniform> frame: Frame;
-
-@group(0) @binding(2)
-var mask: texture_2d<u32>;
-
-@group(0) @binding(3)
-var ids: texture_2d<u32>;
-
-@group(0) @binding(4)
-var depths: texture_depth_2d;
-
-@group(0) @binding(5)
-var normals: texture_2d<f32>;
-
-fn mask_around(p_px: vec2f) -> u32 {
-    let size = vec2i(textureDimensions(mask));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    var bits = 0u;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        bits |= textureLoad(mask, at, 0).x;
-    }
-    return bits;
-}
-
-fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
-        return (line_depth - surface) / frame.pixel_footprint;
-    }
-    let line_distance = 1.0 / line_depth;
-    let surface_inverse = depth / frame.depth_range.x;
-    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
-}
-
 struct Frame {
     clip_from_world: mat4x4f,
     view_from_world: mat4x4f,
@@ -197,6 +161,42 @@ struct Segment {
     types: u32,
     reserved_0: u32,
     reserved_1: u32
+}
+
+@group(0) @binding(0)
+var<uniform> frame: Frame;
+
+@group(0) @binding(2)
+var mask: texture_2d<u32>;
+
+@group(0) @binding(3)
+var ids: texture_2d<u32>;
+
+@group(0) @binding(4)
+var depths: texture_depth_2d;
+
+@group(0) @binding(5)
+var normals: texture_2d<f32>;
+
+fn mask_around(p_px: vec2f) -> u32 {
+    let size = vec2i(textureDimensions(mask));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    var bits = 0u;
+    for (var i = 0; i < 4; i++) {
+        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
+        bits |= textureLoad(mask, at, 0).x;
+    }
+    return bits;
+}
+
+fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
+        return (line_depth - surface) / frame.pixel_footprint;
+    }
+    let line_distance = 1.0 / line_depth;
+    let surface_inverse = depth / frame.depth_range.x;
+    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {

@@ -2,9 +2,7 @@
 
 pub(crate) const DRAW_ALPHA_BLEND: u32 = 4u32;
 pub(crate) const DRAW_ALPHA_MASK: u32 = 2u32;
-pub(crate) const DRAW_BASE_UV1: u32 = 32u32;
 pub(crate) const DRAW_DOUBLE_SIDED: u32 = 16u32;
-pub(crate) const DRAW_EMISSIVE_UV1: u32 = 64u32;
 pub(crate) const DRAW_MIRRORED: u32 = 8u32;
 pub(crate) const DRAW_UNLIT: u32 = 1u32;
 #[repr(C)]
@@ -184,6 +182,7 @@ pub(crate) const FRAME_BACKGROUND: u32 = 4u32;
 pub(crate) const FRAME_LINEAR_BLEND: u32 = 1u32;
 pub(crate) const FRAME_ORTHOGRAPHIC: u32 = 2u32;
 pub(crate) const FRAME_OUTPUT_LINEAR: u32 = 8u32;
+pub(crate) const FRAME_OUTPUT_STRAIGHT: u32 = 64u32;
 pub(crate) const FRAME_SHOW_LINES: u32 = 32u32;
 pub(crate) const FRAME_SHOW_PAINT: u32 = 16u32;
 #[repr(C)]

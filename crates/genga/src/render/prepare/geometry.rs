@@ -7,7 +7,7 @@ use super::{
     pages::{PAGE_BYTES, Pages, Place},
 };
 use crate::render::generated::{Edge, NO_VERTEX, RestVertex, WorldVertex};
-use crate::scene::{Primitive, Scene};
+use crate::scene::Primitive;
 
 /// What a vertex keeps through deformation.
 #[repr(C)]

@@ -1,0 +1,24 @@
+//! The renderer: scene and style → picture, on any wgpu device.
+//!
+//! [`Renderer::prepare`] uploads a scene under a style, [`Renderer::set_pose`] moves it,
+//! [`Renderer::render`] draws it into a texture and [`Renderer::picture`] into memory. Programs
+//! without a device of their own get one from [`Gpu::headless`].
+
+mod error;
+mod frame;
+mod generated;
+mod gpu;
+mod layouts;
+mod passes;
+mod picture;
+mod prepare;
+mod renderer;
+mod targets;
+mod view;
+
+pub use error::RenderError;
+pub use gpu::{Gpu, GpuError, GpuOptions, adapters};
+pub use picture::{Layer, LayerData, LayerKind, MAX_PICTURE_SIDE, Picture};
+pub use prepare::Prepared;
+pub use renderer::{FrameTimes, PassTime, Renderer, Workload};
+pub use view::{Orbit, View, ViewCamera};

@@ -1,0 +1,91 @@
+//! Paint, background and lines → the caller's texture.
+
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use super::surface::{cleared, shader};
+use crate::render::gpu::{
+    bindings::{Binding as B, group, layout, pipeline_layout},
+    timing::Timer,
+};
+use crate::render::targets::Targets;
+
+pub(crate) struct CompositePass {
+    layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    made: Mutex<HashMap<wgpu::TextureFormat, Arc<wgpu::RenderPipeline>>>,
+}
+
+impl CompositePass {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let bindings = [(0, B::Uniform), (1, B::Float), (2, B::Float), (3, B::Uint)];
+        let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
+        let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
+        let module = shader(device, "composite", include_str!("../generated/composite.wgsl"));
+        Self { layout, pipeline_layout, module, made: Mutex::new(HashMap::new()) }
+    }
+
+    pub(crate) fn run(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::Buffer,
+        targets: &Targets,
+        (output, format): (&wgpu::TextureView, wgpu::TextureFormat),
+        timer: &mut Timer,
+    ) {
+        use wgpu::BindingResource as R;
+        let group = group(
+            device,
+            "composite",
+            &self.layout,
+            &[
+                (0, frame.as_entire_binding()),
+                (1, R::TextureView(&targets.paint.view)),
+                (2, R::TextureView(&targets.coverage.view)),
+                (3, R::TextureView(&targets.mask.view)),
+            ],
+        );
+        let pipeline = self.pipeline(device, format);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("composite"),
+            color_attachments: &[cleared(output, None)],
+            timestamp_writes: timer.render("composite"),
+            ..Default::default()
+        });
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+
+    fn pipeline(&self, device: &wgpu::Device, format: wgpu::TextureFormat) -> Arc<wgpu::RenderPipeline> {
+        let make = || {
+            Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some("composite"),
+                layout: Some(&self.pipeline_layout),
+                vertex: wgpu::VertexState {
+                    module: &self.module,
+                    entry_point: Some("composite_vertex"),
+                    compilation_options: Default::default(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: None,
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &self.module,
+                    entry_point: Some("composite_fragment"),
+                    compilation_options: Default::default(),
+                    targets: &[Some(format.into())],
+                }),
+                multiview_mask: None,
+                cache: None,
+            }))
+        };
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(made.entry(format).or_insert_with(make))
+    }
+}

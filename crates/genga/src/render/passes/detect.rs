@@ -1,0 +1,56 @@
+//! Where lines are: differences in the G-buffer → the mask of line types.
+
+use super::surface::shader;
+use crate::render::gpu::{
+    bindings::{Binding as B, compute_pipeline, group, layout, pipeline_layout},
+    timing::Timer,
+};
+use crate::render::targets::{MASK_FORMAT, Targets};
+
+pub(crate) struct DetectPass {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl DetectPass {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let module = shader(device, "detect", include_str!("../generated/detect.wgsl"));
+        let bindings =
+            [(0, B::Uniform), (1, B::Float), (2, B::Uint), (3, B::Depth), (4, B::Written(MASK_FORMAT))];
+        let layout = layout(device, "detect", wgpu::ShaderStages::COMPUTE, &bindings);
+        let pipeline_layout = pipeline_layout(device, "detect", &[&layout]);
+        let pipeline = compute_pipeline(device, &pipeline_layout, &module, "detect_lines");
+        Self { layout, pipeline }
+    }
+
+    pub(crate) fn run(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::Buffer,
+        targets: &Targets,
+        timer: &mut Timer,
+    ) {
+        use wgpu::BindingResource as R;
+        let group = group(
+            device,
+            "detect",
+            &self.layout,
+            &[
+                (0, frame.as_entire_binding()),
+                (1, R::TextureView(&targets.normal.view)),
+                (2, R::TextureView(&targets.ids.view)),
+                (3, R::TextureView(&targets.depth.view)),
+                (4, R::TextureView(&targets.mask.view)),
+            ],
+        );
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("detect"),
+            timestamp_writes: timer.compute("detect"),
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        let [width, height] = targets.size.pixels.map(|n| (n * targets.size.gbuffer_scale).div_ceil(8));
+        pass.dispatch_workgroups(width, height, 1);
+    }
+}

@@ -1,0 +1,12 @@
+//! One file a pass; each has its shader under `shaders/passes/` by the same name.
+
+pub(crate) mod candidates;
+pub(crate) mod composite;
+pub(crate) mod deform;
+pub(crate) mod detect;
+pub(crate) mod gbuffer;
+pub(crate) mod paint;
+pub(crate) mod plain;
+pub(crate) mod reference;
+pub(crate) mod strokes;
+pub(crate) mod surface;

@@ -1,0 +1,62 @@
+//! Surfaces in colour; the inverted hull, if the style asks for it.
+
+use super::surface::{
+    SurfacePipelines, Variant, cleared, cleared_depth, draw_items, shader, sorted_items,
+};
+use crate::render::gpu::timing::Timer;
+use crate::render::{
+    layouts::Layouts,
+    prepare::Prepared,
+    targets::{PAINT_FORMAT, PAINT_SAMPLES, Targets},
+};
+use crate::style::LineMethod;
+
+pub(crate) struct PaintPass {
+    surfaces: SurfacePipelines,
+    hulls: SurfacePipelines,
+}
+
+impl PaintPass {
+    pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
+        let module = shader(device, "paint", include_str!("../generated/paint.wgsl"));
+        let make = |label, module, entries| {
+            let formats = [PAINT_FORMAT];
+            SurfacePipelines::new(device, layouts, label, module, entries, &formats, PAINT_SAMPLES)
+        };
+        Self {
+            surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"]),
+            hulls: make("hull", module, ["hull_vertex", "hull_fragment"]),
+        }
+    }
+
+    pub(crate) fn run(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        targets: &Targets,
+        eye: glam::Vec4,
+        timer: &mut Timer,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("paint"),
+            color_attachments: &[cleared(&targets.paint_samples.view, Some(&targets.paint.view))],
+            depth_stencil_attachment: cleared_depth(&targets.paint_depth.view, wgpu::StoreOp::Discard),
+            timestamp_writes: timer.render("paint"),
+            ..Default::default()
+        });
+        let (opaque, blended) = sorted_items(prepared, eye);
+        let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item)));
+        draw_items(device, &mut pass, prepared, &self.surfaces, items);
+        if prepared.style.lines.method == LineMethod::Hull {
+            let cull = Some(wgpu::Face::Front);
+            let items = opaque.iter().map(|&(i, item)| {
+                (i, item, Variant { mirrored: item.mirrored, cull, blend: false })
+            });
+            draw_items(device, &mut pass, prepared, &self.hulls, items);
+        }
+        let items =
+            blended.iter().map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item) }));
+        draw_items(device, &mut pass, prepared, &self.surfaces, items);
+    }
+}

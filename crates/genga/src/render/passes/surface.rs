@@ -1,0 +1,217 @@
+//! What the passes that draw surfaces have in common: vertex layout, pipelines by winding and
+//! culling, and the walk over the draw list.
+
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use crate::render::generated::WorldVertex;
+use crate::render::gpu::bindings::pipeline_layout;
+use crate::render::layouts::Layouts;
+use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes};
+use crate::render::targets::DEPTH_FORMAT;
+
+/// What differs between the pipelines of one pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Variant {
+    /// The transform mirrors: triangles wind the other way.
+    pub(crate) mirrored: bool,
+    /// Which faces are left out.
+    pub(crate) cull: Option<wgpu::Face>,
+    /// Blended over what is there, without writing depth.
+    pub(crate) blend: bool,
+}
+
+impl Variant {
+    /// As the material of a draw asks.
+    pub(crate) fn of(item: &DrawItem) -> Self {
+        let cull = (!item.double_sided).then_some(wgpu::Face::Back);
+        Self { mirrored: item.mirrored, cull, blend: false }
+    }
+}
+
+/// Pipelines of one vertex and fragment stage, made when they are first needed.
+pub(crate) struct SurfacePipelines {
+    label: &'static str,
+    module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
+    vertex_entry: &'static str,
+    fragment_entry: &'static str,
+    formats: Vec<wgpu::TextureFormat>,
+    samples: u32,
+    made: Mutex<HashMap<Variant, Arc<wgpu::RenderPipeline>>>,
+}
+
+impl SurfacePipelines {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        label: &'static str,
+        module: wgpu::ShaderModule,
+        [vertex_entry, fragment_entry]: [&'static str; 2],
+        formats: &[wgpu::TextureFormat],
+        samples: u32,
+    ) -> Self {
+        Self {
+            label,
+            module,
+            layout: pipeline_layout(device, label, &[&layouts.surface, &layouts.material]),
+            vertex_entry,
+            fragment_entry,
+            formats: formats.to_vec(),
+            samples,
+            made: Mutex::new(HashMap::new()),
+        }
+    }
+
+    /// The pipeline of a variant.
+    pub(crate) fn get(&self, device: &wgpu::Device, variant: Variant) -> Arc<wgpu::RenderPipeline> {
+        let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(made.entry(variant).or_insert_with(|| Arc::new(self.make(device, variant))))
+    }
+
+    fn make(&self, device: &wgpu::Device, variant: Variant) -> wgpu::RenderPipeline {
+        let blend = variant.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING);
+        let targets: Vec<_> = self
+            .formats
+            .iter()
+            .map(|&format| {
+                Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })
+            })
+            .collect();
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.label),
+            layout: Some(&self.layout),
+            vertex: wgpu::VertexState {
+                module: &self.module,
+                entry_point: Some(self.vertex_entry),
+                compilation_options: Default::default(),
+                buffers: &[
+                    wgpu::VertexBufferLayout {
+                        array_stride: size_of::<WorldVertex>() as u64,
+                        step_mode: wgpu::VertexStepMode::Vertex,
+                        attributes: &wgpu::vertex_attr_array![
+                            0 => Float32x3, 1 => Uint32, 2 => Uint32, 3 => Float32
+                        ],
+                    },
+                    wgpu::VertexBufferLayout {
+                        array_stride: size_of::<VertexAttributes>() as u64,
+                        step_mode: wgpu::VertexStepMode::Vertex,
+                        attributes: &wgpu::vertex_attr_array![
+                            4 => Float32x2, 5 => Float32x2, 6 => Unorm8x4
+                        ],
+                    },
+                ],
+            },
+            primitive: wgpu::PrimitiveState {
+                front_face: if variant.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                cull_mode: variant.cull,
+                ..Default::default()
+            },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(!variant.blend),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState { count: self.samples, ..Default::default() },
+            fragment: Some(wgpu::FragmentState {
+                module: &self.module,
+                entry_point: Some(self.fragment_entry),
+                compilation_options: Default::default(),
+                targets: &targets,
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
+
+/// A shader module of linked WGSL.
+pub(crate) fn shader(device: &wgpu::Device, label: &str, wgsl: &'static str) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+    })
+}
+
+/// A colour attachment that is cleared to zero and kept.
+pub(crate) fn cleared<'a>(
+    view: &'a wgpu::TextureView,
+    resolve_target: Option<&'a wgpu::TextureView>,
+) -> Option<wgpu::RenderPassColorAttachment<'a>> {
+    // With a resolve target only that one is needed afterwards.
+    let store = if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+    Some(wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target,
+        ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store },
+    })
+}
+
+/// A depth attachment, cleared to the far end of reverse Z.
+pub(crate) fn cleared_depth(
+    view: &wgpu::TextureView,
+    store: wgpu::StoreOp,
+) -> Option<wgpu::RenderPassDepthStencilAttachment<'_>> {
+    Some(wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store }),
+        stencil_ops: None,
+    })
+}
+
+/// Draws items in the given order, each with its own pipeline.
+pub(crate) fn draw_items<'a>(
+    device: &wgpu::Device,
+    pass: &mut wgpu::RenderPass<'_>,
+    prepared: &'a Prepared,
+    pipelines: &SurfacePipelines,
+    items: impl Iterator<Item = (usize, &'a DrawItem, Variant)>,
+) {
+    pass.set_bind_group(0, &prepared.surface_group, &[]);
+    let (mut variant_set, mut material_set) = (None, None);
+    for (index, item, variant) in items {
+        if variant_set != Some(variant) {
+            pass.set_pipeline(&pipelines.get(device, variant));
+            variant_set = Some(variant);
+        }
+        if material_set != Some(item.material) {
+            pass.set_bind_group(1, &prepared.materials[item.material], &[]);
+            material_set = Some(item.material);
+        }
+        let geometry = &prepared.geometry;
+        let chunk = &item.chunk;
+        let world_at = u64::from(item.world.first) * size_of::<WorldVertex>() as u64;
+        let rest_at = u64::from(chunk.rest.first) * size_of::<VertexAttributes>() as u64;
+        pass.set_vertex_buffer(0, geometry.world[item.world.page].slice(world_at..));
+        pass.set_vertex_buffer(1, geometry.attributes[chunk.rest.page].slice(rest_at..));
+        let indices = &geometry.indices[chunk.indices.page];
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        let first = chunk.indices.first;
+        let instance = index as u32;
+        pass.draw_indexed(first..first + chunk.index_count, 0, instance..instance + 1);
+    }
+}
+
+/// The opaque and masked draws in their order, then the blended ones from back to front as seen
+/// from `eye` (`w` as in `Frame::eye`).
+pub(crate) fn sorted_items<'a>(
+    prepared: &'a Prepared,
+    eye: glam::Vec4,
+) -> (Vec<(usize, &'a DrawItem)>, Vec<(usize, &'a DrawItem)>) {
+    let (opaque, mut blended): (Vec<_>, Vec<_>) =
+        prepared.draws.iter().enumerate().partition(|(_, item)| !item.blend);
+    let nearness = |item: &DrawItem| {
+        if eye.w > 0.0 {
+            -item.center.distance_squared(eye.truncate())
+        } else {
+            item.center.dot(eye.truncate())
+        }
+    };
+    blended.sort_by(|(i, a), (j, b)| nearness(a).total_cmp(&nearness(b)).then(i.cmp(j)));
+    (opaque, blended)
+}

@@ -1,0 +1,384 @@
+//! Pictures in memory: drawn in tiles, read back, with the layers that were asked for.
+
+use super::{
+    RenderError,
+    frame::{Output, Tile, apron, gbuffer_scale},
+    gpu::{readback::TextureRead, scope, timing::Timer},
+    prepare::Prepared,
+    renderer::{Renderer, check_view},
+    targets::{Target, Targets, target},
+    view::{Projected, View},
+};
+
+/// Largest side of a picture in pixels.
+pub const MAX_PICTURE_SIDE: u32 = 16_384;
+
+/// Largest side of a tile's paint target in texels; it bounds the memory that a picture takes.
+const MAX_TILE_TEXELS: u32 = 3072;
+
+/// What a layer shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LayerKind {
+    /// Painted surfaces without lines and background: RGBA, sRGB-encoded, straight alpha. The
+    /// `hull` and `rim` methods are part of it.
+    Color,
+    /// Distance along the camera's axis in metres; infinite on the background.
+    Depth,
+    /// World-space normal of the visible surface; 0 on the background.
+    Normal,
+    /// Object (node index + 1), material (index + 1; 0 for the default one), user line id; 0 on
+    /// the background.
+    Ids,
+    /// Lines alone: RGBA, sRGB-encoded, straight alpha.
+    Lines,
+}
+
+impl LayerKind {
+    /// All layers.
+    pub const ALL: [Self; 5] = [Self::Color, Self::Depth, Self::Normal, Self::Ids, Self::Lines];
+
+    /// Name in file names and options.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Color => "color",
+            Self::Depth => "depth",
+            Self::Normal => "normal",
+            Self::Ids => "ids",
+            Self::Lines => "lines",
+        }
+    }
+}
+
+/// Pixels of a layer, row by row from the top, channels interleaved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LayerData {
+    /// Floats.
+    F32 {
+        /// Channels per pixel.
+        channels: usize,
+        /// `width · height · channels` numbers.
+        values: Vec<f32>,
+    },
+    /// Whole numbers.
+    U32 {
+        /// Channels per pixel.
+        channels: usize,
+        /// `width · height · channels` numbers.
+        values: Vec<u32>,
+    },
+    /// RGBA, sRGB-encoded, straight alpha: `width · height · 4` bytes.
+    Rgba8(Vec<u8>),
+}
+
+/// One target of the frame beside the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// What it shows.
+    pub kind: LayerKind,
+    /// Its pixels.
+    pub data: LayerData,
+}
+
+/// A finished picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Width in pixels.
+    pub width: u32,
+    /// Height in pixels.
+    pub height: u32,
+    /// sRGB-encoded, straight alpha, row by row from the top: `width · height · 4` bytes.
+    pub rgba: Vec<u8>,
+    /// The layers that were asked for, in that order.
+    pub layers: Vec<Layer>,
+}
+
+/// A texture that takes a composite to be read back.
+pub(crate) fn color_target(device: &wgpu::Device, size: [u32; 2]) -> Target {
+    let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+    target(device, "picture", size, 1, wgpu::TextureFormat::Rgba8Unorm, usage)
+}
+
+impl Renderer {
+    /// Draws a view of any size up to [`MAX_PICTURE_SIDE`] and brings it back, with `layers`
+    /// beside it. Large pictures are drawn in tiles; a tiled picture equals the whole one.
+    /// `progress` is called with the number of tiles done and of all tiles.
+    ///
+    /// # Errors
+    /// Impossible sizes or camera numbers, what the driver refuses, or a lost device.
+    pub async fn picture(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        layers: &[LayerKind],
+        progress: &mut dyn FnMut(u32, u32),
+    ) -> Result<Picture, RenderError> {
+        self.picture_in_tiles(prepared, view, layers, MAX_TILE_TEXELS, progress).await
+    }
+
+    /// As [`Self::picture`], with paint targets of at most `max_texels` on a side.
+    ///
+    /// # Errors
+    /// As [`Self::picture`].
+    #[doc(hidden)]
+    pub async fn picture_in_tiles(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        layers: &[LayerKind],
+        max_texels: u32,
+        progress: &mut dyn FnMut(u32, u32),
+    ) -> Result<Picture, RenderError> {
+        check_view(view, MAX_PICTURE_SIDE)?;
+        let [width, height] = view.size;
+        let pixels = width as usize * height as usize;
+        let mut picture = Picture {
+            width,
+            height,
+            rgba: vec![0; 4 * pixels],
+            layers: layers.iter().map(|&kind| empty_layer(kind, pixels)).collect(),
+        };
+        let limit = self.device.limits().max_texture_dimension_2d.min(max_texels) / view.supersample;
+        let tiles = tiles(view.size, limit.max(64), apron(prepared, view));
+        let total = tiles.len() as u32;
+        progress(0, total);
+        for (done, (tile, kept)) in tiles.into_iter().enumerate() {
+            self.draw_into(&mut picture, prepared, view, tile, kept).await?;
+            progress(done as u32 + 1, total);
+        }
+        Ok(picture)
+    }
+
+    /// Draws one tile and copies the part that is kept.
+    async fn draw_into(
+        &self,
+        picture: &mut Picture,
+        prepared: &Prepared,
+        view: &View,
+        tile: Tile,
+        kept: Tile,
+    ) -> Result<(), RenderError> {
+        let device = &self.device;
+        let whole = Output {
+            background: view.background,
+            paint: true,
+            lines: true,
+            linear: false,
+            straight: true,
+        };
+        let offset = [kept.origin[0] - tile.origin[0], kept.origin[1] - tile.origin[1]];
+        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+        let (targets, read) = scope::checked(device, || {
+            let mut encoder = self.encoder("tile");
+            let mut timer = Timer::off();
+            let targets = self.draw_tile(&mut encoder, prepared, view, tile, whole, &mut timer);
+            let shown = color_target(device, tile.size);
+            let output = (&shown.view, shown.texture.format());
+            self.composite(&mut encoder, prepared, &targets, output, &mut timer);
+            let all = wgpu::TextureAspect::All;
+            let read =
+                TextureRead::record(device, &mut encoder, &shown.texture, all, offset, kept.size);
+            self.queue.submit([encoder.finish()]);
+            Ok((targets, read))
+        })?;
+        let bytes = read.finish(device).await?;
+        copy_rows(&mut picture.rgba, picture.width, &bytes, kept, 4);
+
+        let gbuffer_scale = gbuffer_scale(prepared, view);
+        for layer in &mut picture.layers {
+            let (paint, lines) = match layer.kind {
+                LayerKind::Color => (true, false),
+                LayerKind::Lines => (false, true),
+                LayerKind::Depth | LayerKind::Normal | LayerKind::Ids => {
+                    let source = GBufferSource {
+                        renderer: self,
+                        targets: &targets,
+                        projected: &projected,
+                        offset,
+                        kept,
+                        scale: gbuffer_scale,
+                    };
+                    source.read(layer, picture.width).await?;
+                    continue;
+                }
+            };
+            let output = Output { background: false, paint, lines, ..whole };
+            let read = scope::checked(device, || {
+                self.write_frame(prepared, view, &projected, tile, output);
+                let mut encoder = self.encoder("layer");
+                let shown = color_target(device, tile.size);
+                let output = (&shown.view, shown.texture.format());
+                self.composite(&mut encoder, prepared, &targets, output, &mut Timer::off());
+                let all = wgpu::TextureAspect::All;
+                let read =
+                    TextureRead::record(device, &mut encoder, &shown.texture, all, offset, kept.size);
+                self.queue.submit([encoder.finish()]);
+                Ok(read)
+            })?;
+            let bytes = read.finish(device).await?;
+            if let LayerData::Rgba8(rgba) = &mut layer.data {
+                copy_rows(rgba, picture.width, &bytes, kept, 4);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where the data layers of one tile come from.
+struct GBufferSource<'a> {
+    renderer: &'a Renderer,
+    targets: &'a Targets,
+    projected: &'a Projected,
+    offset: [u32; 2],
+    kept: Tile,
+    /// G-buffer texels per pixel.
+    scale: u32,
+}
+
+impl GBufferSource<'_> {
+    /// The top-left texel of each pixel of the part that is kept, `N` bytes each.
+    async fn texels<const N: usize>(
+        &self,
+        texture: &wgpu::Texture,
+        aspect: wgpu::TextureAspect,
+    ) -> Result<Vec<[u8; N]>, RenderError> {
+        let device = &self.renderer.device;
+        let read = scope::checked(device, || {
+            let mut encoder = self.renderer.encoder("layer");
+            let (offset, size) = (self.offset, self.kept.size);
+            let scaled = |n: [u32; 2]| n.map(|n| n * self.scale);
+            let read =
+                TextureRead::record(device, &mut encoder, texture, aspect, scaled(offset), scaled(size));
+            self.renderer.queue.submit([encoder.finish()]);
+            Ok(read)
+        })?;
+        let bytes = read.finish(device).await?;
+        let scale = self.scale as usize;
+        let width = self.kept.size[0] as usize * scale;
+        let (texels, _) = bytes.as_chunks::<N>();
+        let rows = texels.chunks_exact(width.max(1)).step_by(scale);
+        Ok(rows.flat_map(|row| row.iter().step_by(scale).copied()).collect())
+    }
+
+    async fn read(&self, layer: &mut Layer, picture_width: u32) -> Result<(), RenderError> {
+        let all = wgpu::TextureAspect::All;
+        match (&mut layer.data, layer.kind) {
+            (LayerData::F32 { values, .. }, LayerKind::Depth) => {
+                let aspect = wgpu::TextureAspect::DepthOnly;
+                let texels = self.texels::<4>(&self.targets.depth.texture, aspect).await?;
+                let distances: Vec<f32> =
+                    texels.iter().map(|&t| self.distance(f32::from_le_bytes(t))).collect();
+                copy_rows(values, picture_width, &distances, self.kept, 1);
+            }
+            (LayerData::F32 { values, .. }, _) => {
+                let texels = self.texels::<8>(&self.targets.normal.texture, all).await?;
+                let half = |a: u8, b: u8| half::f16::from_le_bytes([a, b]).to_f32();
+                let normals: Vec<f32> = texels
+                    .iter()
+                    .flat_map(|t| [half(t[0], t[1]), half(t[2], t[3]), half(t[4], t[5])])
+                    .collect();
+                copy_rows(values, picture_width, &normals, self.kept, 3);
+            }
+            (LayerData::U32 { values, .. }, _) => {
+                let texels = self.texels::<8>(&self.targets.ids.texture, all).await?;
+                let ids: Vec<u32> = texels
+                    .iter()
+                    .flat_map(|t| {
+                        let object = u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
+                        let material = u32::from(u16::from_le_bytes([t[4], t[5]]));
+                        [object, material, u32::from(u16::from_le_bytes([t[6], t[7]]))]
+                    })
+                    .collect();
+                copy_rows(values, picture_width, &ids, self.kept, 3);
+            }
+            (LayerData::Rgba8(_), _) => {}
+        }
+        Ok(())
+    }
+
+    /// Metres along the camera's axis; infinite for the cleared value.
+    fn distance(&self, depth: f32) -> f32 {
+        let range = self.projected.depth_range;
+        if depth <= 0.0 {
+            f32::INFINITY
+        } else if self.projected.orthographic {
+            range.y + (range.x - range.y) * depth
+        } else {
+            range.x / depth
+        }
+    }
+}
+
+fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
+    let data = match kind {
+        LayerKind::Color | LayerKind::Lines => LayerData::Rgba8(vec![0; 4 * pixels]),
+        LayerKind::Depth => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
+        LayerKind::Normal => LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] },
+        LayerKind::Ids => LayerData::U32 { channels: 3, values: vec![0; 3 * pixels] },
+    };
+    Layer { kind, data }
+}
+
+/// Copies the rows of a tile to their place in the picture.
+fn copy_rows<T: Copy>(to: &mut [T], to_width: u32, from: &[T], kept: Tile, channels: usize) {
+    let row = kept.size[0] as usize * channels;
+    for (y, from) in from.chunks_exact(row.max(1)).enumerate() {
+        let at = (kept.origin[1] as usize + y) * to_width as usize + kept.origin[0] as usize;
+        to[at * channels..at * channels + row].copy_from_slice(from);
+    }
+}
+
+/// Tiles as (drawn, kept): the kept parts cover the picture once, the drawn ones reach `apron`
+/// pixels further where the picture does.
+fn tiles(size: [u32; 2], limit: u32, apron: u32) -> Vec<(Tile, Tile)> {
+    let spans = |length: u32| -> Vec<(u32, u32, u32, u32)> {
+        if length <= limit {
+            return vec![(0, length, 0, length)];
+        }
+        let step = limit.saturating_sub(2 * apron).max(limit / 4).max(1);
+        (0..length)
+            .step_by(step as usize)
+            .map(|start| {
+                let end = (start + step).min(length);
+                (start.saturating_sub(apron), (end + apron).min(length), start, end)
+            })
+            .collect()
+    };
+    let columns = spans(size[0]);
+    let mut result = Vec::new();
+    for &(y0, y1, ky0, ky1) in &spans(size[1]) {
+        for &(x0, x1, kx0, kx1) in &columns {
+            result.push((
+                Tile { origin: [x0, y0], size: [x1 - x0, y1 - y0] },
+                Tile { origin: [kx0, ky0], size: [kx1 - kx0, ky1 - ky0] },
+            ));
+        }
+    }
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kept_tiles_cover_every_pixel_once() {
+        for (size, limit, apron) in [([300, 70], 64, 6), ([64, 64], 64, 6), ([1, 500], 100, 40)] {
+            let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
+            for (drawn, kept) in tiles(size, limit, apron) {
+                assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron));
+                for axis in 0..2 {
+                    let low = kept.origin[axis].saturating_sub(apron).max(drawn.origin[axis]);
+                    assert_eq!(low, drawn.origin[axis]);
+                    assert!(drawn.origin[axis] + drawn.size[axis] <= size[axis]);
+                }
+                for y in 0..kept.size[1] {
+                    for x in 0..kept.size[0] {
+                        covered[((kept.origin[1] + y) * size[0] + kept.origin[0] + x) as usize] += 1;
+                    }
+                }
+            }
+            assert!(covered.iter().all(|&n| n == 1), "{size:?}");
+        }
+    }
+}

@@ -1,0 +1,628 @@
+//! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
+
+pub(crate) mod edges;
+pub(crate) mod geometry;
+pub(crate) mod lights;
+pub(crate) mod looks;
+pub(crate) mod pages;
+mod textures;
+
+use std::{collections::HashMap, sync::Arc};
+
+use glam::{Affine3A, Vec3, Vec4};
+
+use self::{
+    geometry::{Chunk, Geometry, GeometryBuilder},
+    lights::PlacedLight,
+    looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
+    pages::{PAGE_BYTES, Place},
+    textures::Textures,
+};
+use super::{
+    RenderError,
+    generated::{self as gpu, Deform, Draw, Frame, Light, Segment, StrokeRange, WorldVertex},
+    gpu::{bindings, scope},
+    layouts::Layouts,
+};
+use crate::scene::{Aabb, AlphaMode, Material, Pose, Scene, TextureRef};
+use crate::style::Style;
+
+/// A scene under a style, ready to be drawn in any view.
+pub struct Prepared {
+    pub(crate) style: Style,
+    pub(crate) geometry: Geometry,
+    pub(crate) draws: Vec<DrawItem>,
+    pub(crate) materials: Vec<wgpu::BindGroup>,
+    pub(crate) frame: wgpu::Buffer,
+    pub(crate) draw_data: wgpu::Buffer,
+    pub(crate) light_data: wgpu::Buffer,
+    /// Group 0 of the passes that draw surfaces.
+    pub(crate) surface_group: wgpu::BindGroup,
+    pub(crate) lights: Vec<PlacedLight>,
+    pub(crate) deform: DeformData,
+    pub(crate) strokes: StrokeData,
+    pub(crate) bounds: Option<Aabb>,
+    pub(crate) max_width_factor: f32,
+    draw_values: Vec<Draw>,
+    warnings: Vec<String>,
+    node_count: usize,
+}
+
+/// One chunk of a primitive of a node.
+pub(crate) struct DrawItem {
+    pub(crate) chunk: Chunk,
+    pub(crate) world: Place,
+    pub(crate) material: usize,
+    pub(crate) double_sided: bool,
+    pub(crate) blend: bool,
+    pub(crate) mirrored: bool,
+    /// Middle in world space, for sorting.
+    pub(crate) center: Vec3,
+    /// Its first joint matrix.
+    matrix_first: u32,
+}
+
+/// What the deformation of a scene needs.
+pub(crate) struct DeformData {
+    matrices: wgpu::Buffer,
+    weights: wgpu::Buffer,
+    pub(crate) groups: HashMap<[usize; 3], wgpu::BindGroup>,
+    pub(crate) uniforms: wgpu::BindGroup,
+    nodes: Vec<NodeDeform>,
+    matrix_count: usize,
+    weight_count: usize,
+}
+
+/// Where the matrices and weights of a node lie.
+#[derive(Clone, Copy)]
+struct NodeDeform {
+    node: usize,
+    matrix_first: u32,
+    /// Joints; the node's own matrix follows them.
+    joint_count: u32,
+    weight_first: u32,
+    weight_count: u32,
+}
+
+/// What the strokes of a scene need.
+pub(crate) struct StrokeData {
+    pub(crate) segments: wgpu::Buffer,
+    pub(crate) arguments: wgpu::Buffer,
+    /// For each run of edges: group, dynamic offset, count.
+    pub(crate) candidates: Vec<(wgpu::BindGroup, u32, u32)>,
+    pub(crate) candidate_group: wgpu::BindGroup,
+    pub(crate) segment_group: wgpu::BindGroup,
+    /// For each draw: group, dynamic offset, number of indices.
+    pub(crate) reference: Vec<(wgpu::BindGroup, u32, u32)>,
+}
+
+impl Prepared {
+    /// What could not be drawn as the file or style asks, in sentences for the user.
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
+    /// Bounds of the scene in its present pose; `None` if there is nothing to draw.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.bounds
+    }
+
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &Layouts,
+        scene: &Scene,
+        style: &Style,
+    ) -> Result<Self, RenderError> {
+        scene.validate()?;
+        scope::checked(device, || Ok(Builder::new(device, queue, layouts, scene, style).build()))
+    }
+
+    /// Whether a scene and pose have the nodes, skins and meshes that this was prepared from.
+    pub(crate) fn fits(&self, scene: &Scene, pose: &Pose) -> bool {
+        let nodes = scene.nodes.len();
+        nodes == self.node_count
+            && [pose.world_from_node.len(), pose.morph_weights.len(), pose.visible.len()] == [nodes; 3]
+    }
+
+    /// Brings the scene to a pose: matrices, weights, lights. The caller then runs `deform`.
+    pub(crate) fn write_pose(&mut self, queue: &wgpu::Queue, scene: &Scene, pose: &Pose) {
+        let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
+        let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
+        for deform in &self.deform.nodes {
+            let first = deform.matrix_first as usize;
+            let joints = pose.world_from_rest(scene, deform.node).unwrap_or_default();
+            let count = joints.len().min(deform.joint_count as usize);
+            matrices[first..first + count].copy_from_slice(&joints[..count]);
+            matrices[first + deform.joint_count as usize] = pose.world_from_node[deform.node];
+            let (first, count) = (deform.weight_first as usize, deform.weight_count as usize);
+            let posed = &pose.morph_weights[deform.node];
+            for (slot, weight) in weights[first..first + count].iter_mut().zip(posed) {
+                *slot = if weight.is_finite() { *weight } else { 0.0 };
+            }
+        }
+        let rows: Vec<[Vec4; 3]> = matrices
+            .iter()
+            .map(|m| {
+                let (r, t) = (m.matrix3.transpose(), m.translation);
+                [
+                    Vec3::from(r.x_axis).extend(t.x),
+                    Vec3::from(r.y_axis).extend(t.y),
+                    Vec3::from(r.z_axis).extend(t.z),
+                ]
+            })
+            .collect();
+        queue.write_buffer(&self.deform.matrices, 0, bytemuck::cast_slice(&rows));
+        queue.write_buffer(&self.deform.weights, 0, bytemuck::cast_slice(&weights));
+        for (item, values) in self.draws.iter_mut().zip(&mut self.draw_values) {
+            let matrix = matrices[item.matrix_first as usize];
+            item.mirrored = matrix.matrix3.determinant() < 0.0;
+            item.center = matrix.transform_point3(item.chunk.center);
+            if item.mirrored {
+                values.flags |= gpu::DRAW_MIRRORED;
+            } else {
+                values.flags &= !gpu::DRAW_MIRRORED;
+            }
+        }
+        queue.write_buffer(&self.draw_data, 0, bytemuck::cast_slice(&self.draw_values));
+        self.lights = lights::placed_lights(scene, pose, &self.style.light);
+        self.bounds = scene.bounds(pose);
+    }
+}
+
+/// Everything while it is put together.
+struct Builder<'a> {
+    device: &'a wgpu::Device,
+    layouts: &'a Layouts,
+    scene: &'a Scene,
+    style: &'a Style,
+    geometry: GeometryBuilder,
+    textures: Textures<'a>,
+    looks: Looks<'a>,
+    chunks: HashMap<(usize, usize), Vec<Chunk>>,
+    materials: Vec<wgpu::BindGroup>,
+    material_of: HashMap<(Option<usize>, Option<usize>), usize>,
+    draws: Vec<DrawItem>,
+    draw_values: Vec<Draw>,
+    deforms: Vec<(Deform, [usize; 3])>,
+    nodes: Vec<NodeDeform>,
+    matrix_count: u32,
+    weight_count: u32,
+    world_pages: Vec<u32>,
+    queue: &'a wgpu::Queue,
+}
+
+impl<'a> Builder<'a> {
+    fn new(
+        device: &'a wgpu::Device,
+        queue: &'a wgpu::Queue,
+        layouts: &'a Layouts,
+        scene: &'a Scene,
+        style: &'a Style,
+    ) -> Self {
+        Self {
+            device,
+            layouts,
+            scene,
+            style,
+            geometry: GeometryBuilder::new(),
+            textures: Textures::new(device, queue, scene),
+            looks: Looks::new(style),
+            chunks: HashMap::new(),
+            materials: Vec::new(),
+            material_of: HashMap::new(),
+            draws: Vec::new(),
+            draw_values: Vec::new(),
+            deforms: Vec::new(),
+            nodes: Vec::new(),
+            matrix_count: 0,
+            weight_count: 0,
+            world_pages: Vec::new(),
+            queue,
+        }
+    }
+
+    fn build(mut self) -> Prepared {
+        let pose = Pose::rest(self.scene);
+        for index in (0..self.scene.nodes.len()).filter(|&i| pose.visible[i]) {
+            self.add_node(index);
+        }
+        self.finish(&pose)
+    }
+
+    fn add_node(&mut self, index: usize) {
+        let scene = self.scene;
+        let node = &scene.nodes[index];
+        let Some(mesh_index) = node.mesh else { return };
+        let mesh = &scene.meshes[mesh_index];
+        let joint_count = node.skin.map_or(0, |skin| scene.skins[skin].joints.len() as u32);
+        let weight_count =
+            mesh.primitives.iter().map(|p| p.morph_targets.len()).max().unwrap_or(0) as u32;
+        let deform = NodeDeform {
+            node: index,
+            matrix_first: self.matrix_count,
+            joint_count,
+            weight_first: self.weight_count,
+            weight_count,
+        };
+        self.matrix_count += joint_count + 1;
+        self.weight_count += weight_count;
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let default = Material::default();
+            let material = primitive.material.map_or(&default, |m| &scene.materials[m]);
+            let is_skinned = joint_count > 0 && !primitive.joints.is_empty();
+            let matrix_first = deform.matrix_first + if is_skinned { 0 } else { joint_count };
+            let uv_set = |t: Option<TextureRef>| t.map_or(0, |t| t.uv_set);
+            let uv_sets = [uv_set(material.base_color_texture), uv_set(material.emissive_texture)];
+            let chunks = match self.chunks.get(&(mesh_index, p)) {
+                Some(chunks) => chunks.clone(),
+                None => {
+                    let chunks = self.geometry.add(&mesh.name, primitive, uv_sets);
+                    self.chunks.insert((mesh_index, p), chunks.clone());
+                    chunks
+                }
+            };
+            let look = self.looks.range(&node.name, &material.name);
+            let group = self.material_group(primitive.material, material, &look);
+            for chunk in chunks {
+                let world = self.world_place(chunk.vertex_count);
+                self.deforms.push((
+                    Deform {
+                        rest_first: chunk.rest.first,
+                        world_first: world.first,
+                        vertex_count: chunk.vertex_count,
+                        matrix_first,
+                        weight_first: deform.weight_first,
+                        target_count: chunk.target_count,
+                        morph_first: chunk.morph.first,
+                        reserved_0: 0,
+                    },
+                    [chunk.rest.page, world.page, chunk.morph.page],
+                ));
+                let values =
+                    self.draw_values(index, primitive.material, &node.name, material, &look);
+                self.draw_values.push(values);
+                self.draws.push(DrawItem {
+                    world,
+                    material: group,
+                    double_sided: material.double_sided,
+                    blend: material.alpha == AlphaMode::Blend,
+                    mirrored: false,
+                    center: chunk.center,
+                    matrix_first,
+                    chunk,
+                });
+            }
+        }
+        self.nodes.push(deform);
+    }
+
+    fn draw_values(
+        &self,
+        node: usize,
+        material_index: Option<usize>,
+        object: &str,
+        material: &Material,
+        look: &LookRange,
+    ) -> Draw {
+        let mut flags = 0;
+        let mut set = |condition: bool, flag: u32| flags |= if condition { flag } else { 0 };
+        set(material.unlit, gpu::DRAW_UNLIT);
+        set(material.double_sided, gpu::DRAW_DOUBLE_SIDED);
+        set(material.alpha == AlphaMode::Blend, gpu::DRAW_ALPHA_BLEND);
+        set(matches!(material.alpha, AlphaMode::Mask { .. }), gpu::DRAW_ALPHA_MASK);
+        let [base_uv_u, base_uv_v] = uv_rows(material.base_color_texture);
+        let [emissive_uv_u, emissive_uv_v] = uv_rows(material.emissive_texture);
+        let sets = self.style.lines.sets.iter().take(4).enumerate();
+        let line_sets = sets
+            .filter(|(_, set)| set.matches(object, &material.name))
+            .fold(0, |bits, (i, _)| bits | 1 << i);
+        Draw {
+            base_color: material.base_color,
+            emissive: material.emissive.extend(0.0),
+            base_uv_u,
+            base_uv_v,
+            emissive_uv_u,
+            emissive_uv_v,
+            object_id: node as u32 + 1,
+            material_id: (material_index.map_or(0, |m| m + 1) & 0xffff) as u32,
+            look_first: look.look_first,
+            rule_first: look.rule_first,
+            rule_count: look.rule_count,
+            flags,
+            alpha_cutoff: match material.alpha {
+                AlphaMode::Mask { cutoff } => cutoff,
+                AlphaMode::Opaque | AlphaMode::Blend => 0.0,
+            },
+            line_sets,
+        }
+    }
+
+    fn material_group(
+        &mut self,
+        index: Option<usize>,
+        material: &Material,
+        look: &LookRange,
+    ) -> usize {
+        let key = (index, look.id_image.as_ref().map(|image| Arc::as_ptr(image) as usize));
+        if let Some(&group) = self.material_of.get(&key) {
+            return group;
+        }
+        let (base, base_sampler) = self.textures.get(material.base_color_texture);
+        let (emissive, emissive_sampler) = self.textures.get(material.emissive_texture);
+        let id = self.textures.style_image(look.id_image.as_ref());
+        use wgpu::BindingResource as R;
+        let group = bindings::group(
+            self.device,
+            "material",
+            &self.layouts.material,
+            &[
+                (0, R::TextureView(&base)),
+                (1, R::Sampler(&base_sampler)),
+                (2, R::TextureView(&emissive)),
+                (3, R::Sampler(&emissive_sampler)),
+                (4, R::TextureView(&id)),
+            ],
+        );
+        self.materials.push(group);
+        self.material_of.insert(key, self.materials.len() - 1);
+        self.materials.len() - 1
+    }
+
+    fn world_place(&mut self, vertex_count: u32) -> Place {
+        let capacity = (PAGE_BYTES / size_of::<WorldVertex>()) as u32;
+        let fits = self.world_pages.last().is_some_and(|&used| used + vertex_count <= capacity);
+        if !fits {
+            self.world_pages.push(0);
+        }
+        let page = self.world_pages.len() - 1;
+        let first = self.world_pages[page];
+        self.world_pages[page] += vertex_count;
+        Place { page, first }
+    }
+
+    fn finish(self, pose: &Pose) -> Prepared {
+        use wgpu::BufferUsages as Usage;
+        let device = self.device;
+        let geometry = Geometry::upload(device, &self.geometry, &self.world_pages);
+        let stored = Usage::STORAGE | Usage::COPY_DST;
+        let frame = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<Frame>() as u64,
+            usage: Usage::UNIFORM | Usage::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let draw_data = bindings::buffer(device, "draws", stored, &self.draw_values);
+        let look_data = bindings::buffer(device, "looks", Usage::STORAGE, &self.looks.looks);
+        let rule_data = bindings::buffer(device, "rules", Usage::STORAGE, &self.looks.rules);
+        let lights = lights::placed_lights(self.scene, pose, &self.style.light);
+        let light_nodes = self.scene.nodes.iter().filter(|node| node.light.is_some()).count();
+        let no_light: Light = bytemuck::Zeroable::zeroed();
+        let light_data =
+            bindings::buffer(device, "lights", stored, &vec![no_light; light_nodes.max(1)]);
+        let ramps = ramp_texture(device, self.queue, &self.looks.ramp_rows);
+        let surface_group = bindings::group(
+            device,
+            "surfaces",
+            &self.layouts.surface,
+            &[
+                (0, frame.as_entire_binding()),
+                (1, draw_data.as_entire_binding()),
+                (2, look_data.as_entire_binding()),
+                (3, rule_data.as_entire_binding()),
+                (4, light_data.as_entire_binding()),
+                (5, wgpu::BindingResource::TextureView(&ramps)),
+            ],
+        );
+        let deform = self.deform_data(&geometry);
+        let strokes = self.stroke_data(&geometry, &frame, &draw_data);
+        let mut warnings = self.geometry.warnings;
+        warnings.extend(self.textures.warnings);
+        let max_width_factor = self.looks.max_width_factor();
+        warnings.extend(self.looks.warnings);
+        Prepared {
+            style: self.style.clone(),
+            geometry,
+            draws: self.draws,
+            materials: self.materials,
+            frame,
+            draw_data,
+            light_data,
+            surface_group,
+            lights,
+            deform,
+            strokes,
+            bounds: None,
+            max_width_factor,
+            draw_values: self.draw_values,
+            warnings,
+            node_count: self.scene.nodes.len(),
+        }
+    }
+
+    fn deform_data(&self, geometry: &Geometry) -> DeformData {
+        use wgpu::BufferUsages as Usage;
+        let stored = Usage::STORAGE | Usage::COPY_DST;
+        let matrices = vec![[Vec4::ZERO; 3]; self.matrix_count.max(1) as usize];
+        let matrices =
+            bindings::buffer(self.device, "joint matrices", stored, matrices.as_flattened());
+        let weights = vec![0.0_f32; self.weight_count.max(1) as usize];
+        let weights = bindings::buffer(self.device, "morph weights", stored, &weights);
+        let mut groups = HashMap::new();
+        for (_, pages) in &self.deforms {
+            groups.entry(*pages).or_insert_with(|| {
+                bindings::group(
+                    self.device,
+                    "deform",
+                    &self.layouts.deform,
+                    &[
+                        (0, geometry.rest[pages[0]].as_entire_binding()),
+                        (1, geometry.world[pages[1]].as_entire_binding()),
+                        (2, matrices.as_entire_binding()),
+                        (3, geometry.morph[pages[2]].as_entire_binding()),
+                        (4, weights.as_entire_binding()),
+                    ],
+                )
+            });
+        }
+        let values: Vec<Deform> = self.deforms.iter().map(|(deform, _)| *deform).collect();
+        let uniforms = bindings::dynamic_uniforms(self.device, "deforms", &values);
+        let uniforms = bindings::group(
+            self.device,
+            "deforms",
+            &self.layouts.dynamic,
+            &[(0, dynamic_binding::<Deform>(&uniforms))],
+        );
+        DeformData {
+            matrices,
+            weights,
+            groups,
+            uniforms,
+            nodes: self.nodes.clone(),
+            matrix_count: self.matrix_count as usize,
+            weight_count: self.weight_count as usize,
+        }
+    }
+
+    fn stroke_data(
+        &self,
+        geometry: &Geometry,
+        frame: &wgpu::Buffer,
+        draw_data: &wgpu::Buffer,
+    ) -> StrokeData {
+        use wgpu::BufferUsages as Usage;
+        let device = self.device;
+        let mut edge_count = 0_usize;
+        // One uniform per run of edges, then one per draw's triangles.
+        let mut ranges = Vec::new();
+        let mut runs = Vec::new();
+        for (i, item) in self.draws.iter().enumerate() {
+            for &(place, count) in &item.chunk.edges {
+                edge_count += count as usize;
+                runs.push((item.world.page, place.page, ranges.len(), count));
+                ranges.push(StrokeRange {
+                    world_first: item.world.first,
+                    first: place.first,
+                    count,
+                    draw: i as u32,
+                });
+            }
+        }
+        let first_triangles = ranges.len();
+        ranges.extend(self.draws.iter().enumerate().map(|(i, item)| StrokeRange {
+            world_first: item.world.first,
+            first: item.chunk.indices.first,
+            count: item.chunk.index_count,
+            draw: i as u32,
+        }));
+        let uniforms = bindings::dynamic_uniforms(device, "stroke ranges", &ranges);
+        let mut groups: HashMap<(usize, usize, bool), wgpu::BindGroup> = HashMap::new();
+        let mut group = |world: usize, page: usize, is_edges: bool| {
+            let items = if is_edges { &geometry.edges[page] } else { &geometry.indices[page] };
+            groups
+                .entry((world, page, is_edges))
+                .or_insert_with(|| {
+                    bindings::group(
+                        device,
+                        "stroke source",
+                        &self.layouts.stroke_source,
+                        &[
+                            (0, geometry.world[world].as_entire_binding()),
+                            (1, items.as_entire_binding()),
+                            (2, dynamic_binding::<StrokeRange>(&uniforms)),
+                        ],
+                    )
+                })
+                .clone()
+        };
+        let offset = |index: usize| (index as u64 * bindings::DYNAMIC_STRIDE) as u32;
+        let candidates =
+            runs.iter().map(|&(w, e, i, n)| (group(w, e, true), offset(i), n)).collect();
+        let reference = self
+            .draws
+            .iter()
+            .enumerate()
+            .map(|(i, item)| {
+                let at = offset(first_triangles + i);
+                (group(item.world.page, item.chunk.indices.page, false), at, item.chunk.index_count)
+            })
+            .collect();
+        let capacity = edge_count.clamp(64, PAGE_BYTES / size_of::<Segment>());
+        let segments = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("segments"),
+            size: (capacity * size_of::<Segment>()) as u64,
+            usage: Usage::STORAGE,
+            mapped_at_creation: false,
+        });
+        let arguments = bindings::buffer(
+            device,
+            "stroke arguments",
+            Usage::STORAGE | Usage::INDIRECT | Usage::COPY_DST,
+            &[0_u32; 5],
+        );
+        let candidate_group = bindings::group(
+            device,
+            "candidates",
+            &self.layouts.candidates,
+            &[
+                (0, frame.as_entire_binding()),
+                (1, draw_data.as_entire_binding()),
+                (2, segments.as_entire_binding()),
+                (3, arguments.as_entire_binding()),
+            ],
+        );
+        let segment_group = bindings::group(
+            device,
+            "segments",
+            &self.layouts.segments,
+            &[(0, segments.as_entire_binding())],
+        );
+        StrokeData { segments, arguments, candidates, candidate_group, segment_group, reference }
+    }
+}
+
+fn dynamic_binding<T>(buffer: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+        buffer,
+        offset: 0,
+        size: wgpu::BufferSize::new(size_of::<T>() as u64),
+    })
+}
+
+/// Rows of KHR_texture_transform's matrix.
+fn uv_rows(texture: Option<TextureRef>) -> [Vec4; 2] {
+    let t = texture.map(|t| t.transform).unwrap_or_default();
+    let (sin, cos) = t.rotation.sin_cos();
+    [
+        Vec4::new(cos * t.scale.x, sin * t.scale.y, t.offset.x, 0.0),
+        Vec4::new(-sin * t.scale.x, cos * t.scale.y, t.offset.y, 0.0),
+    ]
+}
+
+fn ramp_texture(device: &wgpu::Device, queue: &wgpu::Queue, rows: &[u8]) -> wgpu::TextureView {
+    use wgpu::util::DeviceExt as _;
+    let white = vec![255; 4 * RAMP_PICTURE_WIDTH as usize];
+    let rows = if rows.is_empty() { &white } else { rows };
+    let texture = device.create_texture_with_data(
+        queue,
+        &wgpu::TextureDescriptor {
+            label: Some("ramp pictures"),
+            size: wgpu::Extent3d {
+                width: RAMP_PICTURE_WIDTH,
+                height: (rows.len() / white.len()) as u32,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        },
+        wgpu::util::TextureDataOrder::LayerMajor,
+        rows,
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}

@@ -1,0 +1,352 @@
+//! The frame, as one list of passes.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::{
+    RenderError,
+    frame::{Output, Tile, frame_values, gbuffer_scale},
+    generated::Light,
+    gpu::{scope, timing::Timer},
+    layouts::Layouts,
+    passes::{
+        candidates::CandidatePass,
+        composite::CompositePass,
+        deform::DeformPass,
+        detect::DetectPass,
+        gbuffer::GBufferPass,
+        paint::PaintPass,
+        plain::{PlainPass, PlainTargets},
+        reference::ReferencePass,
+        strokes::{StrokePass, stroke_group},
+    },
+    picture::MAX_PICTURE_SIDE,
+    prepare::{Prepared, lights::lights_in_view},
+    targets::{TargetSize, Targets},
+    view::{Projected, View},
+};
+use crate::scene::{Pose, Scene};
+use crate::style::{LineMethod, Style};
+
+/// Draws prepared scenes. Make one per device; it holds pipelines and targets, never a scene.
+pub struct Renderer {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    layouts: Layouts,
+    deform: DeformPass,
+    gbuffer: GBufferPass,
+    detect: DetectPass,
+    candidates: CandidatePass,
+    strokes: StrokePass,
+    reference: ReferencePass,
+    paint: PaintPass,
+    composite: CompositePass,
+    plain: PlainPass,
+    /// The targets of the last size drawn.
+    targets: Mutex<Option<Arc<Targets>>>,
+}
+
+/// What [`Renderer::time_frame`] measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Workload {
+    /// The frame that the style asks for.
+    Styled,
+    /// The same geometry in one pass: texture and Lambert, no lines. The baseline.
+    Plain,
+}
+
+/// GPU time of one pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PassTime {
+    /// Name of the pass.
+    pub name: &'static str,
+    /// Milliseconds.
+    pub milliseconds: f64,
+}
+
+/// How long a frame took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameTimes {
+    /// Each pass in its order; empty on devices without timestamp queries.
+    pub passes: Vec<PassTime>,
+    /// Milliseconds on the GPU from the first pass's beginning to the last one's end; `None` on
+    /// devices without timestamp queries.
+    pub gpu_ms: Option<f64>,
+    /// Milliseconds from submission until the GPU was done, as the CPU sees it.
+    pub wall_ms: f64,
+}
+
+impl Renderer {
+    /// Makes the pipelines on a device of the caller's.
+    ///
+    /// WebGPU's default limits and no optional features are enough.
+    ///
+    /// # Errors
+    /// What the driver refuses.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, RenderError> {
+        scope::checked(device, || {
+            let layouts = Layouts::new(device);
+            Ok(Self {
+                device: device.clone(),
+                queue: queue.clone(),
+                deform: DeformPass::new(device, &layouts),
+                gbuffer: GBufferPass::new(device, &layouts),
+                detect: DetectPass::new(device),
+                candidates: CandidatePass::new(device, &layouts),
+                strokes: StrokePass::new(device, &layouts),
+                reference: ReferencePass::new(device, &layouts),
+                paint: PaintPass::new(device, &layouts),
+                composite: CompositePass::new(device),
+                plain: PlainPass::new(device, &layouts),
+                layouts,
+                targets: Mutex::new(None),
+            })
+        })
+    }
+
+    /// Uploads a scene under a style, in its rest pose.
+    ///
+    /// # Errors
+    /// An inconsistent scene, or what the driver refuses.
+    pub fn prepare(&self, scene: &Scene, style: &Style) -> Result<Prepared, RenderError> {
+        let mut prepared = Prepared::new(&self.device, &self.queue, &self.layouts, scene, style)?;
+        self.set_pose(&mut prepared, scene, &Pose::rest(scene))?;
+        Ok(prepared)
+    }
+
+    /// Brings a prepared scene to a pose. `scene` must be the one that it was prepared from.
+    ///
+    /// # Errors
+    /// A pose of another scene, or what the driver refuses.
+    pub fn set_pose(
+        &self,
+        prepared: &mut Prepared,
+        scene: &Scene,
+        pose: &Pose,
+    ) -> Result<(), RenderError> {
+        if !prepared.fits(scene, pose) {
+            let reason = "the pose or scene is not the one that was prepared".to_owned();
+            return Err(RenderError::View { reason });
+        }
+        scope::checked(&self.device, || {
+            prepared.write_pose(&self.queue, scene, pose);
+            let mut encoder = self.encoder("deform");
+            self.deform.run(&mut encoder, prepared, &mut Timer::off());
+            self.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+
+    /// Draws a view into `target`, which has the view's size and the given format.
+    ///
+    /// Values are premultiplied; sRGB and float formats get linear light, others sRGB-encoded
+    /// values.
+    ///
+    /// # Errors
+    /// A size over the device's limit (see [`Self::picture`] for larger ones), impossible camera
+    /// numbers, or what the driver refuses.
+    pub fn render(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        target: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+    ) -> Result<(), RenderError> {
+        let limit = self.device.limits().max_texture_dimension_2d / view.supersample.clamp(1, 4);
+        check_view(view, limit)?;
+        let output = Output {
+            background: view.background,
+            paint: true,
+            lines: true,
+            linear: is_linear(format),
+            straight: false,
+        };
+        scope::checked(&self.device, || {
+            let tile = Tile { origin: [0, 0], size: view.size };
+            let mut encoder = self.encoder("frame");
+            let mut timer = Timer::off();
+            let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
+            let output = (target, format);
+            self.composite.run(&self.device, &mut encoder, &prepared.frame, &targets, output, &mut timer);
+            self.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+
+    /// The frame without its last step: every pass up to the composite.
+    pub(crate) fn draw_tile(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        view: &View,
+        tile: Tile,
+        output: Output,
+        timer: &mut Timer,
+    ) -> Arc<Targets> {
+        let device = &self.device;
+        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+        self.write_frame(prepared, view, &projected, tile, output);
+        let targets = self.targets_for(TargetSize {
+            pixels: tile.size,
+            paint_scale: view.supersample,
+            gbuffer_scale: gbuffer_scale(prepared, view),
+        });
+        let eye = projected.eye;
+
+        self.gbuffer.run(device, encoder, prepared, &targets, eye, timer);
+        self.detect.run(device, encoder, &prepared.frame, &targets, timer);
+        let group = || stroke_group(device, &self.layouts, prepared, &targets);
+        match prepared.style.lines.method {
+            LineMethod::Contour => {
+                self.candidates.run(encoder, prepared, timer);
+                self.strokes.run(encoder, prepared, &group(), &targets, timer);
+            }
+            LineMethod::Reference => {
+                self.reference.run(encoder, prepared, &group(), &targets, timer);
+            }
+            LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
+        }
+        self.paint.run(device, encoder, prepared, &targets, eye, timer);
+        targets
+    }
+
+    /// Writes the frame's uniform and the lights as this camera sees them.
+    pub(crate) fn write_frame(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        projected: &Projected,
+        tile: Tile,
+        output: Output,
+    ) {
+        let world_from_camera = &view.camera.world_from_camera;
+        let lights: Vec<Light> =
+            lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
+        let frame =
+            frame_values(prepared, view, projected, tile, output, lights.len() as u32);
+        self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
+        self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
+    }
+
+    /// Runs the last step alone, with other contents than the frame's.
+    pub(crate) fn composite(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        targets: &Targets,
+        output: (&wgpu::TextureView, wgpu::TextureFormat),
+        timer: &mut Timer,
+    ) {
+        self.composite.run(&self.device, encoder, &prepared.frame, targets, output, timer);
+    }
+
+    /// Draws one frame off-screen and measures it. The deformation is part of it.
+    ///
+    /// # Errors
+    /// As [`Self::render`], or a lost device.
+    pub async fn time_frame(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        workload: Workload,
+    ) -> Result<FrameTimes, RenderError> {
+        let limit = self.device.limits().max_texture_dimension_2d / view.supersample.clamp(1, 4);
+        check_view(view, limit)?;
+        let device = &self.device;
+        let output =
+            Output { background: view.background, paint: true, lines: true, linear: false, straight: false };
+        let tile = Tile { origin: [0, 0], size: view.size };
+        let mut timer = Timer::new(device);
+        let mut encoder = self.encoder("timed frame");
+        let (commands, timestamps) = scope::checked(device, || {
+            self.deform.run(&mut encoder, prepared, &mut timer);
+            match workload {
+                Workload::Styled => {
+                    let targets =
+                        self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
+                    let shown = super::picture::color_target(device, view.size);
+                    let format = shown.texture.format();
+                    self.composite(&mut encoder, prepared, &targets, (&shown.view, format), &mut timer);
+                }
+                Workload::Plain => {
+                    let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+                    self.write_frame(prepared, view, &projected, tile, output);
+                    let size = view.size.map(|n| n * view.supersample);
+                    let targets = PlainTargets::new(device, size);
+                    let eye = projected.eye;
+                    self.plain.run(device, &mut encoder, prepared, &targets, eye, &mut timer);
+                }
+            }
+            let timestamps = timer.resolve(device, &mut encoder);
+            Ok((encoder.finish(), timestamps))
+        })?;
+        let start = std::time::Instant::now();
+        self.queue.submit([commands]);
+        device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|e| RenderError::DeviceLost { message: e.to_string() })?;
+        let wall_ms = start.elapsed().as_secs_f64() * 1e3;
+        let (passes, gpu_ms) = match timestamps {
+            Some(buffer) => {
+                let (passes, total) = timer.read(device, &self.queue, &buffer).await?;
+                (passes, Some(total))
+            }
+            None => (Vec::new(), None),
+        };
+        let passes = passes
+            .into_iter()
+            .map(|(name, milliseconds)| PassTime { name, milliseconds })
+            .collect();
+        Ok(FrameTimes { passes, gpu_ms, wall_ms })
+    }
+
+    fn targets_for(&self, size: TargetSize) -> Arc<Targets> {
+        let mut slot = self.targets.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*slot {
+            Some(targets) if targets.size == size => Arc::clone(targets),
+            _ => {
+                // The old ones go first: two sets may not fit the memory.
+                *slot = None;
+                let targets = Arc::new(Targets::new(&self.device, size));
+                *slot = Some(Arc::clone(&targets));
+                targets
+            }
+        }
+    }
+
+    pub(crate) fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
+        self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
+    }
+}
+
+/// Whether a target of that format wants linear light.
+fn is_linear(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    format.is_srgb()
+        || matches!(
+            format,
+            F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat | F::R16Float | F::R32Float
+        )
+}
+
+/// Refuses impossible views before they reach the driver.
+pub(crate) fn check_view(view: &View, limit: u32) -> Result<(), RenderError> {
+    let [width, height] = view.size;
+    let limit = limit.min(MAX_PICTURE_SIDE);
+    if width == 0 || height == 0 || width > limit || height > limit {
+        return Err(RenderError::Size { width, height, limit });
+    }
+    if !(1..=4).contains(&view.supersample) {
+        let reason = format!("supersampling must be 1 to 4, not {}", view.supersample);
+        return Err(RenderError::View { reason });
+    }
+    let camera = &view.camera;
+    let size_ok = match camera.projection {
+        crate::scene::Projection::Perspective { fov_y } => fov_y > 0.0 && fov_y < 3.2,
+        crate::scene::Projection::Orthographic { height } => height > 0.0 && height.is_finite(),
+    };
+    if !size_ok || !camera.world_from_camera.is_finite() || !(camera.near > 0.0 && camera.near.is_finite()) {
+        let reason = "the camera's place, angle or near distance is not a usable number".to_owned();
+        return Err(RenderError::View { reason });
+    }
+    Ok(())
+}

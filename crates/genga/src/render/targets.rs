@@ -1,0 +1,96 @@
+//! Every render target: its format, who writes it, who reads it.
+
+/// Colour of surfaces, premultiplied, in the blend space. Written by `paint`, read by `composite`.
+pub(crate) const PAINT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Reverse-Z depth of `paint` and of `gbuffer`; the latter is read by `detect` and `strokes`.
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// World normal and width factor. Written by `gbuffer`, read by `detect` and `strokes`.
+pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Object; material and user line. Written by `gbuffer`, read by `detect` and `strokes`.
+pub(crate) const IDS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
+/// LINE_* bits. Written by `detect`, read by `strokes` and `composite`.
+pub(crate) const MASK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
+/// Coverage of the line sets, one a channel. Written by `strokes`, read by `composite`.
+pub(crate) const COVERAGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// The benchmark's baseline. Written by `plain`.
+pub(crate) const PLAIN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Samples of the paint pass.
+pub(crate) const PAINT_SAMPLES: u32 = 4;
+
+/// Sizes that decide the targets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct TargetSize {
+    /// Tile in pixels.
+    pub(crate) pixels: [u32; 2],
+    /// Paint texels per pixel along each axis.
+    pub(crate) paint_scale: u32,
+    /// G-buffer texels per pixel along each axis.
+    pub(crate) gbuffer_scale: u32,
+}
+
+/// A texture with its view.
+#[derive(Clone)]
+pub(crate) struct Target {
+    pub(crate) texture: wgpu::Texture,
+    pub(crate) view: wgpu::TextureView,
+}
+
+/// The targets of one tile.
+pub(crate) struct Targets {
+    pub(crate) size: TargetSize,
+    pub(crate) paint_samples: Target,
+    pub(crate) paint: Target,
+    pub(crate) paint_depth: Target,
+    pub(crate) normal: Target,
+    pub(crate) ids: Target,
+    pub(crate) depth: Target,
+    pub(crate) mask: Target,
+    pub(crate) coverage: Target,
+}
+
+/// A 2-D texture with its view.
+pub(crate) fn target(
+    device: &wgpu::Device,
+    label: &str,
+    [width, height]: [u32; 2],
+    sample_count: u32,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> Target {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+    Target { texture, view }
+}
+
+impl Targets {
+    pub(crate) fn new(device: &wgpu::Device, size: TargetSize) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let scaled = |scale: u32| size.pixels.map(|n| n * scale);
+        let paint = scaled(size.paint_scale);
+        let gbuffer = scaled(size.gbuffer_scale);
+        let drawn = Usage::RENDER_ATTACHMENT;
+        let read = drawn | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+        let mask_usage = Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+        Self {
+            size,
+            paint_samples: target(device, "paint samples", paint, PAINT_SAMPLES, PAINT_FORMAT, drawn),
+            paint: target(device, "paint", paint, 1, PAINT_FORMAT, read),
+            paint_depth: target(device, "paint depth", paint, PAINT_SAMPLES, DEPTH_FORMAT, drawn),
+            normal: target(device, "normals", gbuffer, 1, NORMAL_FORMAT, read),
+            ids: target(device, "ids", gbuffer, 1, IDS_FORMAT, read),
+            depth: target(device, "depth", gbuffer, 1, DEPTH_FORMAT, read),
+            mask: target(device, "line mask", gbuffer, 1, MASK_FORMAT, mask_usage),
+            coverage: target(device, "line coverage", size.pixels, 1, COVERAGE_FORMAT, read),
+        }
+    }
+}
