@@ -4,6 +4,7 @@
 //! opens no window, keeps no global state and makes no device behind your back.
 
 pub mod scene;
+pub mod scene_file;
 pub mod style;
 mod toml_file;
 
