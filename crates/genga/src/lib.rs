@@ -8,6 +8,7 @@ pub mod import;
 pub mod render;
 pub mod scene;
 pub mod shapes;
+pub mod scene_file;
 pub mod style;
 mod toml_file;
 

@@ -20,6 +20,8 @@
 
 mod color;
 mod file;
+#[cfg(test)]
+mod file_tests;
 mod globs;
 mod lines;
 mod merge;
@@ -31,6 +33,7 @@ mod presets;
 mod tests;
 
 pub use color::{Color, ColorError};
+pub(crate) use file::is_style_path;
 pub use file::{StyleError, json_schema};
 pub use globs::{GlobError, Globs};
 pub use lines::{Detect, Hull, LineMethod, LineSet, LineType, Lines, Rim};

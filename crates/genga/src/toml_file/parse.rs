@@ -1,6 +1,6 @@
 use std::io::Read as _;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
@@ -13,7 +13,7 @@ use super::{FileError, check};
 const MAX_BYTES: u64 = 4 << 20;
 /// Longest `a.b.c` key. Nested tables are dropped recursively, so their depth must be bounded;
 /// the TOML reader itself bounds only brackets.
-const MAX_KEY_PARTS: usize = 64;
+const MAX_KEY_PARTS: usize = 32;
 
 /// A parsed file with what is needed to point at its parts.
 pub(crate) struct Document<'a> {
@@ -156,7 +156,7 @@ pub(crate) fn read_text(path: &Path) -> Result<Arc<str>, std::io::Error> {
     }
 }
 
-/// `base/relative` without the `.` and `x/..` steps that make messages hard to read.
+/// A path without `.` steps, which make messages hard to read.
 pub(crate) fn show_path(path: &Path) -> PathBuf {
-    path.components().collect()
+    path.components().filter(|step| *step != Component::CurDir).collect()
 }
