@@ -12,6 +12,7 @@ mod error;
 mod files;
 mod gltf;
 mod normals;
+mod obj;
 mod picture;
 mod warnings;
 
@@ -21,8 +22,12 @@ use std::path::Path;
 pub use error::{ImportError, Problem};
 pub use files::no_files;
 
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use warnings::Warnings;
+
+/// Coordinates farther out, in metres, are taken for damage. Their squares still fit into 32-bit
+/// floats.
+const FARTHEST: f32 = 1e15;
 
 /// A model that was read, and what was wrong with it.
 #[derive(Clone, Debug)]
@@ -38,6 +43,8 @@ pub struct Imported {
 pub enum Format {
     /// glTF 2.0, as text (`.gltf`) or binary (`.glb`).
     Gltf,
+    /// Wavefront OBJ with MTL materials.
+    Obj,
 }
 
 impl Format {
@@ -47,6 +54,7 @@ impl Format {
         let (_, ending) = name.rsplit_once('.')?;
         match ending.to_ascii_lowercase().as_str() {
             "gltf" | "glb" | "vrm" => Some(Self::Gltf),
+            "obj" => Some(Self::Obj),
             _ => None,
         }
     }
@@ -55,7 +63,14 @@ impl Format {
     #[must_use]
     pub fn from_content(bytes: &[u8]) -> Option<Self> {
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
-        (bytes.starts_with(b"glTF") || text.starts_with(b"{")).then_some(Self::Gltf)
+        if bytes.starts_with(b"glTF") || text.starts_with(b"{") {
+            return Some(Self::Gltf);
+        }
+        let is_obj_line = |line: &[u8]| {
+            [&b"v "[..], b"mtllib ", b"o ", b"g "].iter().any(|start| line.starts_with(start))
+        };
+        let mut lines = bytes.split(|&byte| byte == b'\n').take(100);
+        lines.any(is_obj_line).then_some(Self::Obj)
     }
 }
 
@@ -73,17 +88,12 @@ pub fn load(path: &Path) -> Result<Imported, ImportError> {
         Err(error) => return Err(ImportError { file, problem: Problem::Read(error) }),
     };
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut imported =
-        from_bytes(&file, &bytes, None, &|relative| files::read_file(&folder.join(relative)))?;
-    if let Some(stem) = path.file_stem() {
-        imported.scene.name = stem.to_string_lossy().into_owned();
-    }
-    Ok(imported)
+    from_bytes(&file, &bytes, None, &|relative| files::read_file(&folder.join(relative)))
 }
 
 /// Reads a model from memory.
 ///
-/// `name` is used in messages, as the scene's name and, by its ending, for the format if
+/// `name` is used in messages and for the scene's name and, by its ending, for the format if
 /// `format` is `None`; an unknown ending is decided by the content. `files` gives the bytes of a
 /// file that the model refers to by a relative path (see [`no_files`]).
 ///
@@ -103,10 +113,34 @@ pub fn from_bytes(
         let mut warnings = Warnings::default();
         let mut scene = match format {
             Format::Gltf => gltf::read(bytes, files, &mut warnings)?,
+            Format::Obj => obj::read(bytes, files, &mut warnings)?,
         };
-        name.clone_into(&mut scene.name);
+        let stem = Path::new(name).file_stem();
+        scene.name = stem.map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        warn_of_missing_uvs(&scene, &mut warnings);
         scene.validate()?;
         Ok(Imported { scene, warnings: warnings.into_sentences() })
     };
     read().map_err(|problem| ImportError { file: name.to_owned(), problem })
+}
+
+/// Warns of textures that cannot be placed, since the mesh lacks their coordinates.
+fn warn_of_missing_uvs(scene: &Scene, warnings: &mut Warnings) {
+    let uv_sets = |material: &Material| {
+        let textures = [material.base_color_texture, material.emissive_texture];
+        textures.into_iter().flatten().map(|texture| texture.uv_set)
+    };
+    for (index, mesh) in scene.meshes.iter().enumerate() {
+        for primitive in &mesh.primitives {
+            let material = primitive.material.and_then(|index| scene.materials.get(index));
+            for set in material.into_iter().flat_map(uv_sets) {
+                if primitive.uvs.get(set).is_none_or(Vec::is_empty) {
+                    warnings.add(format!(
+                        "Mesh {index} {} has no texture coordinates {set}, which its material uses.",
+                        warnings::quoted(&mesh.name)
+                    ));
+                }
+            }
+        }
+    }
 }

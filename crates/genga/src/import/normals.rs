@@ -2,12 +2,56 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::scene::Primitive;
+
+/// Makes every normal a unit vector; missing and unusable ones are made smooth over all parts of
+/// the mesh that need some.
+pub(super) fn complete(primitives: &mut [Primitive]) {
+    let is_unit = |normal: &Vec3| (normal.length_squared() - 1.0).abs() < 1e-6;
+    let mut incomplete = Vec::new();
+    for (index, primitive) in primitives.iter_mut().enumerate() {
+        if primitive.normals.is_empty() {
+            incomplete.push(index);
+            continue;
+        }
+        let mut broken = false;
+        for normal in primitive.normals.iter_mut().filter(|normal| !is_unit(normal)) {
+            *normal = normal.as_dvec3().normalize_or_zero().as_vec3();
+            broken |= *normal == Vec3::ZERO;
+        }
+        if broken {
+            incomplete.push(index);
+        }
+    }
+    if incomplete.is_empty() {
+        return;
+    }
+    let parts: Vec<Part> = incomplete
+        .iter()
+        .filter_map(|&index| primitives.get(index))
+        .map(|p| Part { positions: &p.positions, indices: &p.indices })
+        .collect();
+    let made = smooth(&parts);
+    for (index, made) in incomplete.into_iter().zip(made) {
+        let Some(primitive) = primitives.get_mut(index) else { continue };
+        if primitive.normals.is_empty() {
+            primitive.normals = made;
+            continue;
+        }
+        for (normal, made) in primitive.normals.iter_mut().zip(made) {
+            if *normal == Vec3::ZERO {
+                *normal = made;
+            }
+        }
+    }
+}
+
 /// The triangles of one part of a mesh.
 #[derive(Clone, Copy)]
-pub(super) struct Part<'a> {
-    pub(super) positions: &'a [Vec3],
+struct Part<'a> {
+    positions: &'a [Vec3],
     /// In range, a multiple of three.
-    pub(super) indices: &'a [u32],
+    indices: &'a [u32],
 }
 
 /// Unit normals for each vertex of each part: the mean of the adjoining faces' normals, weighted
@@ -15,7 +59,7 @@ pub(super) struct Part<'a> {
 /// exactly equal positions, also those of other parts.
 ///
 /// Where the mean is zero, as in a sheet folded onto itself, a face's own normal is taken.
-pub(super) fn smooth(parts: &[Part]) -> Vec<Vec<Vec3>> {
+fn smooth(parts: &[Part]) -> Vec<Vec<Vec3>> {
     let groups = groups_of_equal_positions(parts);
     let group_count = groups.iter().flatten().map(|&group| group as usize + 1).max().unwrap_or(0);
     let mut sums = vec![DVec3::ZERO; group_count];

@@ -24,7 +24,7 @@ pub struct Channel {
     pub target: ChannelTarget,
     /// How values between keys are found.
     pub interpolation: Interpolation,
-    /// Key times in seconds, finite and rising.
+    /// Key times in seconds, finite and never falling.
     pub times: Vec<f32>,
     /// [`ChannelTarget::width`] numbers per key; three times as many for
     /// [`Interpolation::CubicSpline`] (in-tangent, value, out-tangent).

@@ -12,6 +12,8 @@ mod material;
 mod mesh;
 mod node;
 mod pose;
+#[cfg(test)]
+mod tests;
 mod validate;
 
 pub use bounds::Aabb;

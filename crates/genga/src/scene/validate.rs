@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::Scene;
+use super::{Interpolation, Scene};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -40,6 +40,44 @@ pub enum SceneError {
         count: usize,
         /// Number of vertices.
         vertices: usize,
+    },
+    /// The indices are not whole triangles.
+    #[error("mesh '{mesh}' has {count} indices, which is not a multiple of three")]
+    IncompleteTriangle {
+        /// Name of the mesh.
+        mesh: String,
+        /// Number of indices.
+        count: usize,
+    },
+    /// A picture's pixels do not fit its size.
+    #[error(
+        "image {index} '{name}' has {bytes} bytes for {width}×{height} pixels: there must be four each"
+    )]
+    ImageSize {
+        /// The image.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// Its width in pixels.
+        width: u32,
+        /// Its height in pixels.
+        height: u32,
+        /// Its length.
+        bytes: usize,
+    },
+    /// The keys of a clip's channel cannot be played.
+    #[error(
+        "clip {index} '{name}' has a channel for node {node} whose times fall or are not finite, or that has not {width} values per key"
+    )]
+    Keys {
+        /// The clip.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The channel's node.
+        node: usize,
+        /// Values per key.
+        width: usize,
     },
     /// A coordinate is not a finite number.
     #[error("mesh '{mesh}' has a position that is not a finite number at vertex {vertex}")]
@@ -92,6 +130,13 @@ impl Scene {
             let count = skin.joint_from_mesh.len();
             check(&what, "inverse bind matrix", skin.joints.len().checked_sub(1), count)?;
         }
+        for (index, image) in self.images.iter().enumerate() {
+            let (width, height, bytes) = (image.width, image.height, image.rgba.len());
+            if u64::from(width) * u64::from(height) * 4 != bytes as u64 || bytes == 0 {
+                let name = image.name.clone();
+                return Err(SceneError::ImageSize { index, name, width, height, bytes });
+            }
+        }
         for (i, texture) in self.textures.iter().enumerate() {
             check(&|| format!("texture {i}"), "image", texture.image, self.images.len())?;
         }
@@ -107,6 +152,15 @@ impl Scene {
             for channel in &clip.channels {
                 let what = || format!("clip {i} '{}'", clip.name);
                 check(&what, "node", Some(channel.node), self.nodes.len())?;
+                let cubic = channel.interpolation == Interpolation::CubicSpline;
+                let width = channel.target.width() * if cubic { 3 } else { 1 };
+                if !channel.times.is_sorted()
+                    || !channel.times.iter().all(|time| time.is_finite())
+                    || channel.values.len() != channel.times.len() * width
+                {
+                    let (name, node) = (clip.name.clone(), channel.node);
+                    return Err(SceneError::Keys { index: i, name, node, width });
+                }
             }
         }
         Ok(())
@@ -147,6 +201,10 @@ impl Scene {
                     primitive.indices.iter().max().map(|&i| i as usize),
                     vertices,
                 )?;
+                if primitive.indices.len() % 3 != 0 {
+                    let (mesh, count) = (mesh.name.clone(), primitive.indices.len());
+                    return Err(SceneError::IncompleteTriangle { mesh, count });
+                }
                 let length = |attribute, count: usize, may_be_empty: bool| {
                     if count == vertices || (may_be_empty && count == 0) {
                         Ok(())

@@ -1,20 +1,13 @@
 //! Meshes: triangles from every mode, compacted, with normals.
 
-use std::collections::HashMap;
-
 use glam::Vec3;
 
-use super::super::Problem;
+use super::super::{FARTHEST, Problem};
 use super::accessor::{Accessor, Shape};
 use super::attributes::Attributes;
 use super::document::{Mesh as MeshItem, Primitive as Item};
-use super::normals::{self, Part};
-use super::{GltfFile, capitalised, label};
-use crate::scene::{Mesh, MorphTarget, Primitive, Scene};
-
-/// Coordinates farther out (in metres, over a hundred light-years would be less) are taken for
-/// damage: their squares still fit into 32-bit floats.
-pub(super) const FARTHEST: f32 = 1e15;
+use super::{GltfFile, capitalised, label, normals};
+use crate::scene::{Mesh, MorphTarget, Primitive};
 
 /// Reads all meshes.
 pub(super) fn read(file: &GltfFile) -> Result<Vec<Mesh>, Problem> {
@@ -29,7 +22,7 @@ fn read_mesh(file: &GltfFile, index: usize, item: &MeshItem) -> Result<Mesh, Pro
         let what = format!("{mesh_label}, primitive {i}");
         primitives.extend(read_primitive(file, &what, primitive)?);
     }
-    complete_normals(&mut primitives);
+    normals::complete(&mut primitives);
 
     let count = primitives.iter().map(|p: &Primitive| p.morph_targets.len()).max().unwrap_or(0);
     if primitives.iter().any(|p| p.morph_targets.len() != count) {
@@ -37,6 +30,7 @@ fn read_mesh(file: &GltfFile, index: usize, item: &MeshItem) -> Result<Mesh, Pro
             "The primitives of {mesh_label} have different numbers of morph targets."
         ));
     }
+    file.charge(primitives.len().saturating_mul(count).saturating_mul(size_of::<MorphTarget>()))?;
     for primitive in &mut primitives {
         primitive.morph_targets.resize_with(count, MorphTarget::default);
     }
@@ -235,68 +229,4 @@ fn retain<T>(elements: &mut Vec<T>, used: &[bool]) {
     let mut used = used.iter();
     elements.retain(|_| used.next().copied().unwrap_or(false));
     elements.shrink_to_fit();
-}
-
-/// Makes every normal a unit vector; missing and unusable ones are made smooth over all parts of
-/// the mesh that need some.
-fn complete_normals(primitives: &mut [Primitive]) {
-    let is_unit = |normal: &Vec3| (normal.length_squared() - 1.0).abs() < 1e-6;
-    let mut incomplete = Vec::new();
-    for (index, primitive) in primitives.iter_mut().enumerate() {
-        if primitive.normals.is_empty() {
-            incomplete.push(index);
-            continue;
-        }
-        let mut broken = false;
-        for normal in primitive.normals.iter_mut().filter(|normal| !is_unit(normal)) {
-            *normal = normal.as_dvec3().normalize_or_zero().as_vec3();
-            broken |= *normal == Vec3::ZERO;
-        }
-        if broken {
-            incomplete.push(index);
-        }
-    }
-    if incomplete.is_empty() {
-        return;
-    }
-    let parts: Vec<Part> = incomplete
-        .iter()
-        .filter_map(|&index| primitives.get(index))
-        .map(|p| Part { positions: &p.positions, indices: &p.indices })
-        .collect();
-    let made = normals::smooth(&parts);
-    for (index, made) in incomplete.into_iter().zip(made) {
-        let Some(primitive) = primitives.get_mut(index) else { continue };
-        if primitive.normals.is_empty() {
-            primitive.normals = made;
-            continue;
-        }
-        for (normal, made) in primitive.normals.iter_mut().zip(made) {
-            if *normal == Vec3::ZERO {
-                *normal = made;
-            }
-        }
-    }
-}
-
-/// Warns of textures that cannot be placed, since the mesh lacks their coordinates.
-pub(super) fn warn_of_missing_uvs(file: &GltfFile, scene: &Scene) {
-    let uv_sets_of = |material: &crate::scene::Material| {
-        let textures = [material.base_color_texture, material.emissive_texture];
-        textures.map(|texture| texture.map(|texture| texture.uv_set))
-    };
-    let sets: HashMap<usize, _> = scene.materials.iter().map(uv_sets_of).enumerate().collect();
-    for (index, mesh) in scene.meshes.iter().enumerate() {
-        for primitive in &mesh.primitives {
-            let Some(material) = primitive.material else { continue };
-            for set in sets.get(&material).into_iter().flatten().flatten() {
-                if primitive.uvs.get(*set).is_none_or(Vec::is_empty) {
-                    file.warn(format!(
-                        "{} has no texture coordinates {set}, which its material uses.",
-                        label("Mesh", index, Some(&mesh.name))
-                    ));
-                }
-            }
-        }
-    }
 }

@@ -10,6 +10,8 @@ mod extensions;
 mod material;
 mod mesh;
 mod node;
+#[cfg(test)]
+mod tests;
 
 use std::cell::{Cell, RefCell};
 use std::io;
@@ -85,7 +87,6 @@ pub(super) fn read(
     };
     (scene.nodes, scene.roots) = node::read_nodes(&file, &scene)?;
     scene.clips = animation::read(&file, &scene)?;
-    mesh::warn_of_missing_uvs(&file, &scene);
     Ok(scene)
 }
 
@@ -105,5 +106,5 @@ fn capitalised(text: &str) -> String {
 
 /// Whether all numbers are finite and small enough to square without overflow.
 fn usable(numbers: &[f32]) -> bool {
-    numbers.iter().all(|number| number.abs() <= mesh::FARTHEST)
+    numbers.iter().all(|number| number.abs() <= super::FARTHEST)
 }

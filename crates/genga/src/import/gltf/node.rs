@@ -18,6 +18,7 @@ pub(super) fn read_nodes(
     let items = &file.document.nodes;
     let mut nodes: Vec<Node> =
         items.iter().enumerate().map(|(index, item)| read_node(file, scene, index, item)).collect();
+    charge_for_instances(file, scene, &nodes)?;
     for (index, item) in items.iter().enumerate() {
         for &Int(child) in &item.children {
             let part = || label("node", index, item.name.as_deref());
@@ -148,12 +149,30 @@ fn read_roots(file: &GltfFile, nodes: &[Node]) -> Vec<usize> {
         }
     }
     // Some exporters list nodes together with their ancestors.
-    let below_another = |&root: &usize| {
-        let parent = |node: usize| nodes.get(node).and_then(|node| node.parent);
-        std::iter::successors(parent(root), |&node| parent(node))
-            .any(|node| is_root.get(node).copied().unwrap_or(false))
-    };
-    roots.iter().copied().filter(|root| !below_another(root)).collect()
+    let mut is_below_root = vec![false; nodes.len()];
+    let mut stack: Vec<(usize, bool)> = (0..nodes.len())
+        .filter(|&index| nodes[index].parent.is_none())
+        .map(|index| (index, false))
+        .collect();
+    while let Some((index, below)) = stack.pop() {
+        is_below_root[index] = below;
+        let below = below || is_root[index];
+        stack.extend(nodes[index].children.iter().map(|&child| (child, below)));
+    }
+    roots.retain(|&root| !is_below_root[root]);
+    roots
+}
+
+/// A pose takes memory for each node that shows a mesh with morph targets or a skin, so that
+/// many nodes of one mesh must be paid for.
+fn charge_for_instances(file: &GltfFile, scene: &Scene, nodes: &[Node]) -> Result<(), Problem> {
+    for node in nodes {
+        let mesh = node.mesh.and_then(|mesh| scene.meshes.get(mesh));
+        let skin = node.skin.and_then(|skin| scene.skins.get(skin));
+        file.charge(mesh.map_or(0, |mesh| mesh.morph_weights.len() * size_of::<f32>()))?;
+        file.charge(skin.map_or(0, |skin| skin.joints.len() * size_of::<Affine3A>()))?;
+    }
+    Ok(())
 }
 
 /// Reads all skins.
