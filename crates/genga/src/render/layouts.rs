@@ -37,7 +37,7 @@ impl Layouts {
                     (1, B::Storage),
                     (2, B::Storage),
                     (3, B::Storage),
-                    (4, B::Storage),
+                    (4, B::Uniform),
                     (5, B::Float),
                 ],
             ),

@@ -270,8 +270,7 @@ impl Renderer {
                 Workload::Plain => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);
                     self.write_frame(prepared, view, &projected, tile, output);
-                    let size = view.size.map(|n| n * view.supersample);
-                    let targets = PlainTargets::new(device, size);
+                    let targets = PlainTargets::new(device, view.size, view.supersample);
                     let eye = projected.eye;
                     self.plain.run(device, &mut encoder, prepared, &targets, eye, &mut timer);
                 }

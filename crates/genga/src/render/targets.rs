@@ -15,8 +15,10 @@ pub(crate) const COVERAGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgb
 /// The benchmark's baseline. Written by `plain`.
 pub(crate) const PLAIN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Samples of the paint pass.
-pub(crate) const PAINT_SAMPLES: u32 = 4;
+/// Samples per texel of the paint pass: supersampled pictures have several texels a pixel already.
+pub(crate) fn paint_samples(paint_scale: u32) -> u32 {
+    if paint_scale > 1 { 1 } else { 4 }
+}
 
 /// Sizes that decide the targets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +41,8 @@ pub(crate) struct Target {
 /// The targets of one tile.
 pub(crate) struct Targets {
     pub(crate) size: TargetSize,
-    pub(crate) paint_samples: Target,
+    /// Only where the paint is multisampled.
+    pub(crate) paint_samples: Option<Target>,
     pub(crate) paint: Target,
     pub(crate) paint_depth: Target,
     pub(crate) normal: Target,
@@ -81,11 +84,13 @@ impl Targets {
         let drawn = Usage::RENDER_ATTACHMENT;
         let read = drawn | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
         let mask_usage = Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+        let samples = paint_samples(size.paint_scale);
         Self {
             size,
-            paint_samples: target(device, "paint samples", paint, PAINT_SAMPLES, PAINT_FORMAT, drawn),
+            paint_samples: (samples > 1)
+                .then(|| target(device, "paint samples", paint, samples, PAINT_FORMAT, drawn)),
             paint: target(device, "paint", paint, 1, PAINT_FORMAT, read),
-            paint_depth: target(device, "paint depth", paint, PAINT_SAMPLES, DEPTH_FORMAT, drawn),
+            paint_depth: target(device, "paint depth", paint, samples, DEPTH_FORMAT, drawn),
             normal: target(device, "normals", gbuffer, 1, NORMAL_FORMAT, read),
             ids: target(device, "ids", gbuffer, 1, IDS_FORMAT, read),
             depth: target(device, "depth", gbuffer, 1, DEPTH_FORMAT, read),

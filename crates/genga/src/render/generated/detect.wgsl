@@ -19,7 +19,7 @@ fn clamped(at: vec2i, size: vec2i) -> vec2i {
     return clamp(at, vec2i(0), size - 1);
 }
 
-fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32, steps: f32) -> f32 {
+fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32) -> f32 {
     let predicted = depth_c + (depth_c - depth_b);
     let difference = abs(depth_q - predicted);
     let nearest = max(depth_q, depth_c);
@@ -31,7 +31,7 @@ fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32, steps: f32) -> f32 
     else {
         metres = difference * distance * distance / frame.depth_range.x;
     }
-    return metres / (footprint(frame, distance) * steps / frame.gbuffer_scale);
+    return metres / (footprint(frame, distance) * frame.line_scale);
 }
 
 fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
@@ -51,7 +51,7 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     var bits = 0u;
     if (id_c.x == 0u || id_q.x == 0u) {
         if (frame.detect.depth > 0.0) {
-            bits |= LINE_SILHOUETTE;
+            bits |= LINE_SILHOUETTE | (255u << MASK_SILHOUETTE_SHIFT);
         }
         return bits | (LINE_OBJECT & frame.detect.identities);
     }
@@ -68,15 +68,27 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     let step = q - c;
     let before_c = textureLoad(depths, clamped(c - step, size), 0);
     let after_q = textureLoad(depths, clamped(q + step, size), 0);
-    let broken = min(break_in_pixels(before_c, depth_c, depth_q, 1.41421356), break_in_pixels(after_q, depth_q, depth_c, 1.41421356));
-    let is_broken = frame.detect.depth > 0.0 && broken > frame.detect.depth;
-    if (is_broken) {
-        bits |= LINE_SILHOUETTE;
+    let broken = min(break_in_pixels(before_c, depth_c, depth_q), break_in_pixels(after_q, depth_q, depth_c));
+    let margin = broken / max(frame.detect.depth, 1e-6) - 1.0;
+    if (frame.detect.depth > 0.0 && margin > 0.0) {
+        return bits | LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
     }
-    else if (dot(normal_c.xyz, normal_q.xyz) < frame.detect.crease_cos) {
-        bits |= LINE_CREASE;
+    let turn = frame.detect.crease_cos - dot(normal_c.xyz, normal_q.xyz);
+    if (turn > 0.0) {
+        bits |= LINE_CREASE | (strength(turn / CREASE_GROWTH) << MASK_CREASE_SHIFT);
     }
     return bits;
+}
+
+const CREASE_GROWTH: f32 = 0.15;
+
+fn strength(margin: f32) -> u32 {
+    return u32(clamp(margin, 0.0, 1.0) * 254.0) + 1u;
+}
+
+fn merged(a: u32, b: u32) -> u32 {
+    let bytes = vec2u(65280u, 16711680u);
+    return ((a | b) & 255u) | max(a & bytes.x, b & bytes.x) | max(a & bytes.y, b & bytes.y);
 }
 
 @compute @workgroup_size(8, 8)
@@ -89,7 +101,7 @@ fn detect_lines(@builtin(global_invocation_id) id: vec3u) {
     let right = clamped(at + vec2i(1, 0), size);
     let below = clamped(at + vec2i(0, 1), size);
     let across = clamped(at + vec2i(1, 1), size);
-    let bits = difference(at, across, size) | difference(right, below, size);
+    let bits = merged(difference(at, across, size), difference(right, below, size));
     textureStore(mask, at, vec4u(bits, 0u, 0u, 0u));
 }
 
@@ -131,6 +143,10 @@ struct Detect {
     identities: u32,
     max_width_factor: f32
 }
+
+const MASK_SILHOUETTE_SHIFT: u32 = 8u;
+
+const MASK_CREASE_SHIFT: u32 = 16u;
 
 const LINE_SILHOUETTE: u32 = 1u;
 

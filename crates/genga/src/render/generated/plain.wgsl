@@ -47,20 +47,26 @@ struct Surface {
     @location(1)
     normal: vec3f,
     @location(2)
-    uv0: vec2f,
+    base_uv: vec2f,
     @location(3)
-    uv1: vec2f,
+    emissive_uv: vec2f,
     @location(4)
-    color: vec4f,
+    id_uv: vec2f,
     @location(5)
+    color: vec4f,
+    @location(6)
     line_width: f32,
-    @location(6) @interpolate(flat)
+    @location(7) @interpolate(flat)
     draw: u32
+}
+
+fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
+    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), in.uv0, in.uv1, in.color, in.line_width, in.draw);
+    return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
 }
 
 struct MaterialSample {
@@ -70,14 +76,10 @@ struct MaterialSample {
     look: u32
 }
 
-fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
-    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
-}
-
 fn material_sample(in: Surface) -> MaterialSample {
     let draw = draws[in.draw];
-    let texel = textureSample(base_color_texture, base_color_sampler, transformed_uv(in.uv0, draw.base_uv_u, draw.base_uv_v));
-    let glow = textureSample(emissive_texture, emissive_sampler, transformed_uv(in.uv1, draw.emissive_uv_u, draw.emissive_uv_v));
+    let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
+    let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
     let factor = draw.base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
@@ -111,7 +113,7 @@ fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
     }
     if ((rule.conditions & RULE_ID_TEXTURE) != 0u) {
         let size = vec2f(textureDimensions(id_texture));
-        let texel = vec2u(min(fract(in.uv0) * size, size - 1.0));
+        let texel = vec2u(min(fract(in.id_uv) * size, size - 1.0));
         let difference = abs(textureLoad(id_texture, texel, 0).rgb - rule.id_color.rgb);
         holds = holds && all(difference <= vec3f(rule.id_tolerance));
     }
@@ -139,7 +141,7 @@ var<storage, read> draws: array<Draw>;
 var<storage, read> rules: array<Rule>;
 
 @group(0) @binding(4)
-var<storage, read> lights: array<Light>;
+var<uniform> lights: array<Light, 16>;
 
 @group(1) @binding(0)
 var base_color_texture: texture_2d<f32>;

@@ -34,23 +34,30 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     return Stroke(vec4f(ndc, 0.5, 1.0), p_px, segment.a, segment.b, vec4f(segment.depth_a, segment.depth_b, segment.width_a, segment.width_b), vec2u(segment.draw, segment.types));
 }
 
-const HIDDEN_BEHIND_OWN: f32 = 64.0;
-
 const HIDDEN_BEHIND_OTHER: f32 = 8.0;
 
 fn owner_width(spine_px: vec2f, line_depth: f32, object: u32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let corner = vec2i(round((spine_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
+    let to_eye = view_to_eye(spine_px);
     var width = 0.0;
+    var farthest = -1e30;
+    var nearest = 1e30;
+    var slant = 1.0;
     for (var i = 0; i < 4; i++) {
         let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
         if (textureLoad(ids, at, 0).x == object) {
-            if (behind_in_pixels(line_depth, textureLoad(depths, at, 0)) < HIDDEN_BEHIND_OWN) {
-                width = max(width, textureLoad(normals, at, 0).a);
-            }
+            let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
+            nearest = min(nearest, behind);
+            farthest = max(farthest, behind);
+            let normal = textureLoad(normals, at, 0);
+            let normal_in_view = (frame.view_from_world * vec4f(normal.xyz, 0.0)).xyz;
+            slant = min(slant, abs(dot(normal_in_view, to_eye)));
+            width = max(width, normal.a);
         }
     }
-    return width;
+    let slack = 4.0 + 2.0 * (farthest - nearest) + min(6.0 / max(slant, 0.01), 48.0);
+    return select(0.0, width, nearest < slack);
 }
 
 @fragment
@@ -65,12 +72,13 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
     if (any(spine_px < vec2f(0.0)) || any(spine_px > frame.picture_size)) {
         discard;
     }
-    var types = mask_around(spine_px) & in.owner.y;
-    if (types == 0u) {
+    let line = mask_around(spine_px, in.owner.y);
+    if (line.types == 0u) {
         discard;
     }
-    types |= in.owner.y & LINE_BORDER;
-    let factor = mix(in.ends.z, in.ends.w, t) * owner_width(spine_px, line_depth, draw.object_id);
+    let types = line.types | (in.owner.y & LINE_BORDER);
+    let owner = owner_width(spine_px, line_depth, draw.object_id);
+    let factor = mix(in.ends.z, in.ends.w, t) * line.strength * owner;
     if (factor <= 0.0) {
         discard;
     }
@@ -90,6 +98,67 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
         }
     }
     return coverage;
+}
+
+@group(0) @binding(0)
+var<uniform> frame: Frame;
+
+@group(0) @binding(2)
+var mask: texture_2d<u32>;
+
+@group(0) @binding(3)
+var ids: texture_2d<u32>;
+
+@group(0) @binding(4)
+var depths: texture_depth_2d;
+
+@group(0) @binding(5)
+var normals: texture_2d<f32>;
+
+struct MaskSample {
+    types: u32,
+    strength: f32
+}
+
+fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
+    let size = vec2i(textureDimensions(mask));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    var types = 0u;
+    var strength = 0u;
+    for (var i = 0; i < 4; i++) {
+        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
+        let bits = textureLoad(mask, at, 0).x;
+        let found = bits & wanted & 255u;
+        types |= found;
+        if ((found & LINE_SILHOUETTE) != 0u) {
+            strength = max(strength, (bits >> MASK_SILHOUETTE_SHIFT) & 255u);
+        }
+        if ((found & LINE_CREASE) != 0u) {
+            strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
+        }
+        if ((found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u) {
+            strength = 255u;
+        }
+    }
+    return MaskSample(types, f32(strength) / 255.0);
+}
+
+fn view_to_eye(p_px: vec2f) -> vec3f {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return vec3f(0.0, 0.0, 1.0);
+    }
+    let offset = (p_px - 0.5 * frame.picture_size) * vec2f(1.0, -1.0) * frame.pixel_footprint;
+    return normalize(vec3f(-offset, 1.0));
+}
+
+fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
+        return (line_depth - surface) / frame.pixel_footprint;
+    }
+    let line_distance = 1.0 / line_depth;
+    let surface_inverse = depth / frame.depth_range.x;
+    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
 struct Frame {
@@ -131,6 +200,14 @@ struct Detect {
     max_width_factor: f32
 }
 
+const MASK_SILHOUETTE_SHIFT: u32 = 8u;
+
+const MASK_CREASE_SHIFT: u32 = 16u;
+
+const LINE_SILHOUETTE: u32 = 1u;
+
+const LINE_CREASE: u32 = 2u;
+
 const LINE_BORDER: u32 = 16u;
 
 struct Draw {
@@ -161,42 +238,6 @@ struct Segment {
     types: u32,
     reserved_0: u32,
     reserved_1: u32
-}
-
-@group(0) @binding(0)
-var<uniform> frame: Frame;
-
-@group(0) @binding(2)
-var mask: texture_2d<u32>;
-
-@group(0) @binding(3)
-var ids: texture_2d<u32>;
-
-@group(0) @binding(4)
-var depths: texture_depth_2d;
-
-@group(0) @binding(5)
-var normals: texture_2d<f32>;
-
-fn mask_around(p_px: vec2f) -> u32 {
-    let size = vec2i(textureDimensions(mask));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    var bits = 0u;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        bits |= textureLoad(mask, at, 0).x;
-    }
-    return bits;
-}
-
-fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
-        return (line_depth - surface) / frame.pixel_footprint;
-    }
-    let line_distance = 1.0 / line_depth;
-    let surface_inverse = depth / frame.depth_range.x;
-    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {

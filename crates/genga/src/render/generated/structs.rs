@@ -446,6 +446,8 @@ const _: () = assert!(
     std::mem::offset_of!(Look, reserved_1) == 316,
     "offset of Look.reserved_1 does not match WGSL"
 );
+pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
+pub(crate) const MASK_SILHOUETTE_SHIFT: u32 = 8u32;
 pub(crate) const METHOD_CONTOUR: u32 = 1u32;
 pub(crate) const METHOD_HULL: u32 = 3u32;
 pub(crate) const METHOD_IMAGE: u32 = 5u32;

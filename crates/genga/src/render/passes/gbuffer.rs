@@ -19,7 +19,7 @@ impl GBufferPass {
         let module = shader(device, "gbuffer", include_str!("../generated/gbuffer.wgsl"));
         let entries = ["gbuffer_vertex", "gbuffer_fragment"];
         let formats = [NORMAL_FORMAT, IDS_FORMAT];
-        Self { pipelines: SurfacePipelines::new(device, layouts, "gbuffer", module, entries, &formats, 1) }
+        Self { pipelines: SurfacePipelines::new(device, layouts, "gbuffer", module, entries, &formats) }
     }
 
     pub(crate) fn run(
@@ -40,7 +40,7 @@ impl GBufferPass {
         });
         // Blended surfaces enter where they are at least half opaque; the shader decides.
         let (opaque, blended) = sorted_items(prepared, eye);
-        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item)));
+        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, 1)));
         draw_items(device, &mut pass, prepared, &self.pipelines, items);
     }
 }

@@ -1,13 +1,13 @@
 //! Surfaces in colour; the inverted hull, if the style asks for it.
 
 use super::surface::{
-    SurfacePipelines, Variant, cleared, cleared_depth, draw_items, shader, sorted_items,
+    SurfacePipelines, Variant, cleared_depth, cleared_samples, draw_items, shader, sorted_items,
 };
 use crate::render::gpu::timing::Timer;
 use crate::render::{
     layouts::Layouts,
     prepare::Prepared,
-    targets::{PAINT_FORMAT, PAINT_SAMPLES, Targets},
+    targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
 
@@ -21,7 +21,7 @@ impl PaintPass {
         let module = shader(device, "paint", include_str!("../generated/paint.wgsl"));
         let make = |label, module, entries| {
             let formats = [PAINT_FORMAT];
-            SurfacePipelines::new(device, layouts, label, module, entries, &formats, PAINT_SAMPLES)
+            SurfacePipelines::new(device, layouts, label, module, entries, &formats)
         };
         Self {
             surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"]),
@@ -40,23 +40,27 @@ impl PaintPass {
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("paint"),
-            color_attachments: &[cleared(&targets.paint_samples.view, Some(&targets.paint.view))],
+            color_attachments: &[cleared_samples(
+                targets.paint_samples.as_ref().map(|t| &t.view),
+                &targets.paint.view,
+            )],
             depth_stencil_attachment: cleared_depth(&targets.paint_depth.view, wgpu::StoreOp::Discard),
             timestamp_writes: timer.render("paint"),
             ..Default::default()
         });
+        let samples = paint_samples(targets.size.paint_scale);
         let (opaque, blended) = sorted_items(prepared, eye);
-        let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item)));
+        let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item, samples)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
         if prepared.style.lines.method == LineMethod::Hull {
             let cull = Some(wgpu::Face::Front);
             let items = opaque.iter().map(|&(i, item)| {
-                (i, item, Variant { mirrored: item.mirrored, cull, blend: false })
+                (i, item, Variant { mirrored: item.mirrored, cull, blend: false, samples })
             });
             draw_items(device, &mut pass, prepared, &self.hulls, items);
         }
         let items =
-            blended.iter().map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item) }));
+            blended.iter().map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item, samples) }));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
     }
 }

@@ -1,13 +1,13 @@
 //! The benchmark's baseline: texture and Lambert in one pass.
 
 use super::surface::{
-    SurfacePipelines, Variant, cleared, cleared_depth, draw_items, shader, sorted_items,
+    SurfacePipelines, Variant, cleared_depth, cleared_samples, draw_items, shader, sorted_items,
 };
 use crate::render::gpu::timing::Timer;
 use crate::render::{
     layouts::Layouts,
     prepare::Prepared,
-    targets::{DEPTH_FORMAT, PAINT_SAMPLES, PLAIN_FORMAT, target},
+    targets::{DEPTH_FORMAT, PLAIN_FORMAT, paint_samples, target},
 };
 
 pub(crate) struct PlainPass {
@@ -16,19 +16,23 @@ pub(crate) struct PlainPass {
 
 /// The baseline's own targets, multisampled as the paint pass is.
 pub(crate) struct PlainTargets {
-    samples: wgpu::TextureView,
+    samples: Option<wgpu::TextureView>,
+    sample_count: u32,
     resolved: wgpu::TextureView,
     depth: wgpu::TextureView,
 }
 
 impl PlainTargets {
-    pub(crate) fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, size: [u32; 2], paint_scale: u32) -> Self {
+        let size = size.map(|n| n * paint_scale);
+        let count = paint_samples(paint_scale);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let make = |label, samples, format| target(device, label, size, samples, format, usage).view;
         Self {
-            samples: make("plain samples", PAINT_SAMPLES, PLAIN_FORMAT),
+            samples: (count > 1).then(|| make("plain samples", count, PLAIN_FORMAT)),
+            sample_count: count,
             resolved: make("plain", 1, PLAIN_FORMAT),
-            depth: make("plain depth", PAINT_SAMPLES, DEPTH_FORMAT),
+            depth: make("plain depth", count, DEPTH_FORMAT),
         }
     }
 }
@@ -40,7 +44,7 @@ impl PlainPass {
         let formats = [PLAIN_FORMAT];
         Self {
             pipelines: SurfacePipelines::new(
-                device, layouts, "plain", module, entries, &formats, PAINT_SAMPLES,
+                device, layouts, "plain", module, entries, &formats,
             ),
         }
     }
@@ -56,13 +60,13 @@ impl PlainPass {
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("plain"),
-            color_attachments: &[cleared(&targets.samples, Some(&targets.resolved))],
+            color_attachments: &[cleared_samples(targets.samples.as_ref(), &targets.resolved)],
             depth_stencil_attachment: cleared_depth(&targets.depth, wgpu::StoreOp::Discard),
             timestamp_writes: timer.render("plain"),
             ..Default::default()
         });
         let (opaque, blended) = sorted_items(prepared, eye);
-        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item)));
+        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, targets.sample_count)));
         draw_items(device, &mut pass, prepared, &self.pipelines, items);
     }
 }

@@ -21,13 +21,15 @@ pub(crate) struct Variant {
     pub(crate) cull: Option<wgpu::Face>,
     /// Blended over what is there, without writing depth.
     pub(crate) blend: bool,
+    /// Samples per texel.
+    pub(crate) samples: u32,
 }
 
 impl Variant {
     /// As the material of a draw asks.
-    pub(crate) fn of(item: &DrawItem) -> Self {
+    pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false }
+        Self { mirrored: item.mirrored, cull, blend: false, samples }
     }
 }
 
@@ -39,7 +41,6 @@ pub(crate) struct SurfacePipelines {
     vertex_entry: &'static str,
     fragment_entry: &'static str,
     formats: Vec<wgpu::TextureFormat>,
-    samples: u32,
     made: Mutex<HashMap<Variant, Arc<wgpu::RenderPipeline>>>,
 }
 
@@ -51,7 +52,6 @@ impl SurfacePipelines {
         module: wgpu::ShaderModule,
         [vertex_entry, fragment_entry]: [&'static str; 2],
         formats: &[wgpu::TextureFormat],
-        samples: u32,
     ) -> Self {
         Self {
             label,
@@ -60,7 +60,6 @@ impl SurfacePipelines {
             vertex_entry,
             fragment_entry,
             formats: formats.to_vec(),
-            samples,
             made: Mutex::new(HashMap::new()),
         }
     }
@@ -116,7 +115,7 @@ impl SurfacePipelines {
                 stencil: wgpu::StencilState::default(),
                 bias: wgpu::DepthBiasState::default(),
             }),
-            multisample: wgpu::MultisampleState { count: self.samples, ..Default::default() },
+            multisample: wgpu::MultisampleState { count: variant.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
                 entry_point: Some(self.fragment_entry),
@@ -135,6 +134,15 @@ pub(crate) fn shader(device: &wgpu::Device, label: &str, wgsl: &'static str) -> 
         label: Some(label),
         source: wgpu::ShaderSource::Wgsl(wgsl.into()),
     })
+}
+
+/// The colour attachment of targets that may be multisampled, cleared to zero; what is kept is
+/// `resolved`.
+pub(crate) fn cleared_samples<'a>(
+    samples: Option<&'a wgpu::TextureView>,
+    resolved: &'a wgpu::TextureView,
+) -> Option<wgpu::RenderPassColorAttachment<'a>> {
+    samples.map_or_else(|| cleared(resolved, None), |samples| cleared(samples, Some(resolved)))
 }
 
 /// A colour attachment that is cleared to zero and kept.

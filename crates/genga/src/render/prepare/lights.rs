@@ -15,13 +15,16 @@ pub(crate) struct PlacedLight {
     pinned_to_camera: bool,
 }
 
-/// The lights of a posed scene; empty if the style's own light is to be used.
+/// Lights that the shaders take at once.
+pub(crate) const MAX_LIGHTS: usize = 16;
+
+/// The lights of a posed scene, the strongest first; empty if the style's own light is to be used.
 pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> Vec<PlacedLight> {
     if style.replace_model_lights {
         return Vec::new();
     }
     let nodes = scene.nodes.iter().enumerate().filter(|&(i, _)| pose.visible[i]);
-    nodes
+    let mut lights: Vec<_> = nodes
         .filter_map(|(i, node)| {
             let light = scene.lights.get(node.light?)?;
             let luminance = light.color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
@@ -33,7 +36,9 @@ pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> V
             })
         })
         .filter(|light| light.strength > 0.0)
-        .collect()
+        .collect();
+    lights.sort_by(|a, b| b.strength.total_cmp(&a.strength));
+    lights
 }
 
 /// The lights for a camera. Their weights `w_i` add up to 1.
@@ -45,6 +50,7 @@ pub(crate) fn lights_in_view(
     if placed.is_empty() {
         return vec![style_light(style, world_from_camera)];
     }
+    let placed = &placed[..placed.len().min(MAX_LIGHTS)];
     let total: f32 = placed.iter().map(|light| light.strength).sum();
     placed
         .iter()

@@ -13,7 +13,7 @@ use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
     geometry::{Chunk, Geometry, GeometryBuilder},
-    lights::PlacedLight,
+    lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
     textures::Textures,
@@ -86,7 +86,6 @@ struct NodeDeform {
 
 /// What the strokes of a scene need.
 pub(crate) struct StrokeData {
-    pub(crate) segments: wgpu::Buffer,
     pub(crate) arguments: wgpu::Buffer,
     /// For each run of edges: group, dynamic offset, count.
     pub(crate) candidates: Vec<(wgpu::BindGroup, u32, u32)>,
@@ -398,10 +397,9 @@ impl<'a> Builder<'a> {
         let look_data = bindings::buffer(device, "looks", Usage::STORAGE, &self.looks.looks);
         let rule_data = bindings::buffer(device, "rules", Usage::STORAGE, &self.looks.rules);
         let lights = lights::placed_lights(self.scene, pose, &self.style.light);
-        let light_nodes = self.scene.nodes.iter().filter(|node| node.light.is_some()).count();
         let no_light: Light = bytemuck::Zeroable::zeroed();
-        let light_data =
-            bindings::buffer(device, "lights", stored, &vec![no_light; light_nodes.max(1)]);
+        let uniform = Usage::UNIFORM | Usage::COPY_DST;
+        let light_data = bindings::buffer(device, "lights", uniform, &[no_light; MAX_LIGHTS]);
         let ramps = ramp_texture(device, self.queue, &self.looks.ramp_rows);
         let surface_group = bindings::group(
             device,
@@ -420,6 +418,12 @@ impl<'a> Builder<'a> {
         let strokes = self.stroke_data(&geometry, &frame, &draw_data);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
+        if lights.len() > MAX_LIGHTS {
+            warnings.push(format!(
+                "the scene has {} lights; only the {MAX_LIGHTS} strongest ones are used",
+                lights.len()
+            ));
+        }
         let max_width_factor = self.looks.max_width_factor();
         warnings.extend(self.looks.warnings);
         Prepared {
@@ -579,7 +583,7 @@ impl<'a> Builder<'a> {
             &self.layouts.segments,
             &[(0, segments.as_entire_binding())],
         );
-        StrokeData { segments, arguments, candidates, candidate_group, segment_group, reference }
+        StrokeData { arguments, candidates, candidate_group, segment_group, reference }
     }
 }
 
