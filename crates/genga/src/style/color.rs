@@ -47,11 +47,11 @@ impl FromStr for Color {
         let hex = text.strip_prefix('#').ok_or(ColorError)?;
         let digits: Option<Vec<u8>> =
             hex.chars().map(|c| c.to_digit(16).and_then(|d| u8::try_from(d).ok())).collect();
-        let [r, g, b, a] = match digits.ok_or(ColorError)?.as_slice() {
-            &[r, g, b] => [r * 17, g * 17, b * 17, 255],
-            &[r, g, b, a] => [r * 17, g * 17, b * 17, a * 17],
-            &[r, s, g, h, b, c] => [r * 16 + s, g * 16 + h, b * 16 + c, 255],
-            &[r, s, g, h, b, c, a, d] => [r * 16 + s, g * 16 + h, b * 16 + c, a * 16 + d],
+        let [r, g, b, a] = match *digits.ok_or(ColorError)? {
+            [r, g, b] => [r * 17, g * 17, b * 17, 255],
+            [r, g, b, a] => [r * 17, g * 17, b * 17, a * 17],
+            [r, s, g, h, b, c] => [r * 16 + s, g * 16 + h, b * 16 + c, 255],
+            [r, s, g, h, b, c, a, d] => [r * 16 + s, g * 16 + h, b * 16 + c, a * 16 + d],
             _ => return Err(ColorError),
         }
         .map(|byte| f32::from(byte) / 255.0);

@@ -36,7 +36,7 @@ pub enum StyleError {
     },
 }
 
-/// A style file as it is written.
+/// How things are drawn.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StyleFile {

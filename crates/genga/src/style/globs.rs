@@ -1,6 +1,6 @@
 use std::borrow::Cow;
 
-use globset::{Glob, GlobBuilder, GlobSet};
+use glob::Pattern;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
@@ -9,12 +9,12 @@ use crate::toml_file::list_with;
 
 /// Globs over names, compiled once. Without patterns it matches every name.
 ///
-/// `*` is any text, `?` any one character, `[ab]` one of them, `{skin,face}` either text. Case
-/// does not matter.
+/// `*` is any text (also none), `?` any one character, `[a-z]` one of them, `[!a]` any other.
+/// Case does not matter.
 #[derive(Clone, Debug, Default)]
 pub struct Globs {
     patterns: Vec<String>,
-    set: GlobSet,
+    compiled: Vec<Pattern>,
 }
 
 /// A glob cannot be understood.
@@ -34,15 +34,8 @@ impl Globs {
     /// The first pattern that is not a glob.
     pub fn new<S: Into<String>>(patterns: impl IntoIterator<Item = S>) -> Result<Self, GlobError> {
         let patterns: Vec<String> = patterns.into_iter().map(Into::into).collect();
-        let mut set = GlobSet::builder();
-        for pattern in &patterns {
-            set.add(compile(pattern)?);
-        }
-        let set = set.build().map_err(|e| GlobError {
-            pattern: e.glob().unwrap_or_default().to_owned(),
-            reason: e.kind().to_string(),
-        })?;
-        Ok(Self { patterns, set })
+        let compiled = patterns.iter().map(|pattern| compile(pattern)).collect::<Result<_, _>>()?;
+        Ok(Self { patterns, compiled })
     }
 
     /// The patterns as they were written.
@@ -54,18 +47,18 @@ impl Globs {
     /// Whether one of the patterns fits the whole name, or there are no patterns.
     #[must_use]
     pub fn matches(&self, name: &str) -> bool {
-        self.patterns.is_empty() || self.set.is_match(name)
+        let name = name.to_lowercase();
+        self.compiled.is_empty() || self.compiled.iter().any(|pattern| pattern.matches(&name))
     }
 }
 
-fn compile(pattern: &str) -> Result<Glob, GlobError> {
+fn compile(pattern: &str) -> Result<Pattern, GlobError> {
     let error = |reason: &str| GlobError { pattern: pattern.to_owned(), reason: reason.to_owned() };
-    // Compiled globs grow with their text; a name is never this long.
+    // Matching takes time with the product of the lengths; a name is never this long.
     if pattern.len() > 256 {
         return Err(error("it is longer than 256 bytes"));
     }
-    let glob = GlobBuilder::new(pattern).case_insensitive(true).backslash_escape(true).build();
-    glob.map_err(|e| error(&e.kind().to_string()))
+    Pattern::new(&pattern.to_lowercase()).map_err(|e| error(e.msg))
 }
 
 impl PartialEq for Globs {

@@ -151,7 +151,7 @@ pub struct LineSet {
     /// Opacity in [0, 1], on top of the colour's alpha.
     #[schemars(range(min = 0, max = 1))]
     pub opacity: f32,
-    /// Full width in pixels at [`Lines::reference_height`], ≥ 0.
+    /// Full width in pixels of a picture that is `reference_height` high, ≥ 0.
     #[schemars(range(min = 0))]
     pub width: f32,
 }

@@ -20,6 +20,8 @@
 
 mod color;
 mod file;
+#[cfg(test)]
+mod file_tests;
 mod globs;
 mod lines;
 mod merge;

@@ -109,11 +109,11 @@ pub struct BaseColorRange {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PaintOverride {
-    /// See [`super::Paint::base`].
+    /// Instead of the style's `paint.base`.
     pub base: Option<BaseColor>,
-    /// See [`super::Paint::ramp`].
+    /// Instead of the style's `paint.ramp`.
     pub ramp: Option<Ramp>,
-    /// See [`super::Paint::shade_bias`].
+    /// Instead of the style's `paint.shade_bias`.
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: Option<f32>,
 }

@@ -184,7 +184,7 @@ fn errors_name_the_place_and_the_remedy() {
         ),
         (
             "version = 1\nlines.sets = [{objects=[\"ok\", \"[z\"]}]",
-            "2:31: 'objects' must be a glob, which \"[z\" is not: unclosed character class; missing ']'",
+            "2:31: 'objects' must be a glob, which \"[z\" is not: invalid range pattern",
         ),
         (
             "version = 1\npaint.ramp.stops = []",
@@ -234,4 +234,38 @@ fn errors_name_the_place_and_the_remedy() {
         assert!(text.get(error.span.clone()).is_some());
         assert_eq!(error.path, None);
     }
+}
+
+#[test]
+fn globs_ignore_case_and_compile_whole_names() {
+    let globs = Globs::new(["Head*", "Face_?", "[xy]", "É目?"]).expect("they are globs");
+    for name in ["head", "HEAD.001", "Face_1", "face_é", "X", "é目玉"] {
+        assert!(globs.matches(name), "{name}");
+    }
+    for name in ["", "Forehead", "face_", "face_12", "xy", "é目"] {
+        assert!(!globs.matches(name), "{name}");
+    }
+    assert!(Globs::default().matches("") && Globs::default().matches("anything"));
+    let star = Globs::new(["*"]).expect("it is a glob");
+    assert!(star.matches("") && star.matches("a/b\\c..") && star.matches(".."));
+    assert!(Globs::new(["[a"]).is_err() && Globs::new(["a".repeat(300)]).is_err());
+}
+
+#[test]
+fn colours_go_through_text() {
+    for text in ["#000000", "#ff8800", "#12345678", "#ffffff00"] {
+        assert_eq!(text.parse::<Color>().map(|c| c.to_string()).as_deref(), Ok(text));
+    }
+    let short: Color = "#f80".parse().expect("it is a colour");
+    assert_eq!(Ok(short), "#FF8800".parse());
+    assert_eq!("#f808".parse::<Color>().map(|c| c.to_string()).as_deref(), Ok("#ff880088"));
+    for text in ["", "#", "fff", "#ff", "#fffff", "#fffffff", "#ggg", "#fffffffff", "#é00", "#-12"]
+    {
+        assert_eq!(text.parse::<Color>(), Err(ColorError), "{text}");
+    }
+}
+
+#[test]
+fn the_committed_schema_is_fresh() {
+    crate::toml_file::assert_schema_is_fresh("style.schema.json", &json_schema());
 }

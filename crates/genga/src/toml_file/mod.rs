@@ -15,4 +15,6 @@ pub use error::FileError;
 pub(crate) use check::list_with;
 pub(crate) use error::nearest;
 pub(crate) use parse::{Document, read_text, show_path};
+#[cfg(test)]
+pub(crate) use schema::assert_schema_is_fresh;
 pub(crate) use schema::schema_of;

@@ -13,7 +13,7 @@ use super::{FileError, check};
 const MAX_BYTES: u64 = 4 << 20;
 /// Longest `a.b.c` key. Nested tables are dropped recursively, so their depth must be bounded;
 /// the TOML reader itself bounds only brackets.
-const MAX_KEY_PARTS: usize = 64;
+const MAX_KEY_PARTS: usize = 32;
 
 /// A parsed file with what is needed to point at its parts.
 pub(crate) struct Document<'a> {

@@ -22,6 +22,9 @@ impl Transform for ForToml {
             // Editors warn about formats that they do not know.
             schema.remove("format");
             schema.values_mut().for_each(round_floats);
+            if let Some(Value::String(text)) = schema.get_mut("description") {
+                *text = text.replace('\n', " ");
+            }
         }
         transform_subschemas(self, schema);
     }
@@ -41,10 +44,11 @@ fn drop_null(schema: &mut serde_json::Map<String, Value>) {
     }
     if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
         choices.retain(|c| c.get("type").is_none_or(|t| t != "null"));
-        if let [Value::Object(only)] = choices.as_slice() {
+        if let [only] = choices.as_slice() {
+            // Not the bare `$ref`: draft 7 allows no description beside one.
             let only = only.clone();
             schema.remove("anyOf");
-            schema.extend(only);
+            schema.insert("allOf".to_owned(), vec![only].into());
         }
     }
 }
@@ -62,4 +66,21 @@ fn round_floats(value: &mut Value) {
         Value::Array(array) => array.iter_mut().for_each(round_floats),
         _ => {}
     }
+}
+
+/// Compares a schema with the copy in `assets/schema`, or writes that copy anew where the
+/// environment has `GENGA_UPDATE`.
+#[cfg(test)]
+pub(crate) fn assert_schema_is_fresh(file: &str, schema: &Value) {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/schema");
+    let path = path.join(file);
+    let text = serde_json::to_string_pretty(schema).expect("a schema is plain JSON") + "\n";
+    if std::env::var_os("GENGA_UPDATE").is_some() {
+        std::fs::write(&path, &text).expect("the source tree can be written");
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        committed.replace("\r\n", "\n") == text,
+        "assets/schema/{file} is out of date: run `GENGA_UPDATE=1 cargo test -p genga schema`"
+    );
 }
