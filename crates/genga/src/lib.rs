@@ -6,6 +6,7 @@
 #[cfg(feature = "import")]
 pub mod import;
 pub mod scene;
+pub mod scene_file;
 pub mod shapes;
 pub mod style;
 mod toml_file;

@@ -32,4 +32,7 @@ pub struct Light {
     pub color: Vec3,
     /// Lux for directional lights, candela for the others, ≥ 0.
     pub intensity: f32,
+    /// Whether its node's place is meant in the camera's space and not in the world's: then it
+    /// turns with the camera.
+    pub pinned_to_camera: bool,
 }

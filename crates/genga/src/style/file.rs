@@ -131,13 +131,14 @@ impl Style {
     pub fn find(name_or_path: &str) -> Result<Self, StyleError> {
         match preset_text(name_or_path) {
             Some(text) => Ok(Self::from_toml_str(text)?),
-            None if is_path(name_or_path) => Self::load(name_or_path),
+            None if is_style_path(name_or_path) => Self::load(name_or_path),
             None => Err(StyleError::UnknownPreset { name: name_or_path.to_owned() }),
         }
     }
 }
 
-fn is_path(text: &str) -> bool {
+/// Whether a text names a style file and not a preset.
+pub(crate) fn is_style_path(text: &str) -> bool {
     text.ends_with(".toml") || text.contains(['/', '\\'])
 }
 
@@ -239,7 +240,7 @@ impl Source {
             let path = Some(PathBuf::from(format!("preset:{name}")));
             return Ok(Some((Self { path, directory: PathBuf::new(), text: text.into() }, error)));
         }
-        if !is_path(name) {
+        if !is_style_path(name) {
             return Err(error(unknown_preset(name)));
         }
         let path = show_path(&self.directory.join(name));

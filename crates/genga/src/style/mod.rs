@@ -33,6 +33,7 @@ mod presets;
 mod tests;
 
 pub use color::{Color, ColorError};
+pub(crate) use file::is_style_path;
 pub use file::{StyleError, json_schema};
 pub use globs::{GlobError, Globs};
 pub use lines::{Detect, Hull, LineMethod, LineSet, LineType, Lines, Rim};

@@ -7,10 +7,14 @@
 
 mod check;
 mod error;
+mod located;
 mod parse;
 mod schema;
+#[cfg(test)]
+mod testing;
 
 pub use error::FileError;
+pub use located::Located;
 
 pub(crate) use check::list_with;
 pub(crate) use error::nearest;
@@ -18,3 +22,5 @@ pub(crate) use parse::{Document, read_text, show_path};
 #[cfg(test)]
 pub(crate) use schema::assert_schema_is_fresh;
 pub(crate) use schema::schema_of;
+#[cfg(test)]
+pub(crate) use testing::mutate;

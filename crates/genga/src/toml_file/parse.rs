@@ -1,6 +1,6 @@
 use std::io::Read as _;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
@@ -156,7 +156,7 @@ pub(crate) fn read_text(path: &Path) -> Result<Arc<str>, std::io::Error> {
     }
 }
 
-/// `base/relative` without the `.` and `x/..` steps that make messages hard to read.
+/// A path without `.` steps, which make messages hard to read.
 pub(crate) fn show_path(path: &Path) -> PathBuf {
-    path.components().collect()
+    path.components().filter(|step| *step != Component::CurDir).collect()
 }

@@ -273,5 +273,6 @@ fn read_light(file: &GltfFile, index: usize, item: &LightItem) -> Light {
         kind,
         color: color.max(Vec3::ZERO),
         intensity: intensity.max(0.0),
+        pinned_to_camera: false,
     }
 }
