@@ -248,3 +248,40 @@ fn mutated_files_never_panic() {
         assert!(accepted > 50, "the changes are too rough: {accepted} accepted");
     }
 }
+
+#[test]
+fn examples_are_valid() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/styles/examples");
+    let mut count = 0;
+    for entry in fs::read_dir(examples).expect("the examples are in the source tree") {
+        let path = entry.expect("the folder can be read").path();
+        let style = Style::load(&path).unwrap_or_else(|e| panic!("{e}"));
+        assert!(!style.name.is_empty() && !style.description.is_empty());
+        count += 1;
+    }
+    assert!(count > 0);
+}
+
+/// What selects the steel of an atlas must not select skin, leather or black.
+#[test]
+fn the_metal_example_is_about_bluish_greys() {
+    let example = include_str!("../../../../assets/styles/examples/metal-in-an-atlas.style.toml");
+    let style = Style::from_toml_str(example).expect("it is valid");
+    let [metal] = style.overrides.as_slice() else { panic!("one override") };
+    assert!(metal.select.is_per_pixel() && metal.select.matches("any", "name"));
+    let range = metal.select.base_color.expect("it is given");
+    for (color, expected) in [
+        ("#a9b6bd", true),
+        ("#6d7380", true),
+        ("#566062", true),
+        ("#3d4245", true),
+        ("#f6c5a2", false),
+        ("#a5543a", false),
+        ("#0a1012", false),
+        ("#d42027", false),
+        ("#ffffff", false),
+    ] {
+        let color: Color = color.parse().expect("it is a colour");
+        assert_eq!(range.contains(color), expected, "{color}");
+    }
+}

@@ -92,7 +92,7 @@ pub struct IdTexture {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BaseColorRange {
-    /// Hue in degrees; `[350, 20]` goes over 0.
+    /// Hue in degrees; `[350, 20]` goes over 0. Greys have the hue 0.
     #[schemars(inner(range(min = 0, max = 360)))]
     pub hue: [f32; 2],
     /// Saturation in [0, 1].
@@ -137,6 +137,29 @@ impl Default for VertexColorRange {
     fn default() -> Self {
         let all = [0.0, 1.0];
         Self { red: all, green: all, blue: all, alpha: all }
+    }
+}
+
+impl BaseColorRange {
+    /// Whether a colour lies within all three ranges. Greys have the hue 0.
+    #[must_use]
+    pub fn contains(&self, color: Color) -> bool {
+        let Color { r, g, b, a: _ } = color;
+        let value = r.max(g).max(b);
+        let span = value - r.min(g).min(b);
+        let sixths = match span {
+            span if span <= 0.0 => 0.0,
+            span if value == r => ((g - b) / span).rem_euclid(6.0),
+            span if value == g => 2.0 + (b - r) / span,
+            span => 4.0 + (r - g) / span,
+        };
+        let saturation = if value > 0.0 { span / value } else { 0.0 };
+        let within = |[low, high]: [f32; 2], x: f32| low <= x && x <= high;
+        let [first, last] = self.hue;
+        let hue = 60.0 * sixths;
+        let hue_within =
+            if first <= last { within(self.hue, hue) } else { hue >= first || hue <= last };
+        hue_within && within(self.saturation, saturation) && within(self.value, value)
     }
 }
 

@@ -21,11 +21,19 @@ pub(super) fn load_some<'de, D: Deserializer<'de>>(
     load(deserializer).map(Some)
 }
 
+/// Longest side in pixels: the most that common graphics adapters take.
+const MAX_SIDE: u32 = 16_384;
+
 fn open(path: &Path) -> Result<Image, String> {
     let shown = path.display();
-    let picture = image::ImageReader::open(path)
+    let mut reader = image::ImageReader::open(path)
         .and_then(image::ImageReader::with_guessed_format)
-        .map_err(|e| format!("must be a picture, but '{shown}' cannot be read: {e}"))?
+        .map_err(|e| format!("must be a picture, but '{shown}' cannot be read: {e}"))?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    reader.limits(limits);
+    let picture = reader
         .decode()
         .map_err(|e| format!("must be a picture, but '{shown}' cannot be decoded: {e}"))?
         .into_rgba8();

@@ -269,3 +269,23 @@ fn colours_go_through_text() {
 fn the_committed_schema_is_fresh() {
     crate::toml_file::assert_schema_is_fresh("style.schema.json", &json_schema());
 }
+
+#[test]
+fn hue_ranges_may_go_over_red() {
+    let reds = BaseColorRange { hue: [350.0, 20.0], ..BaseColorRange::default() };
+    let range = BaseColorRange { hue: [100.0, 250.0], ..BaseColorRange::default() };
+    for (color, is_red, is_in_range) in [
+        ("#ff0000", true, false),
+        ("#ff0010", true, false),
+        ("#ff1000", true, false),
+        ("#ffff00", false, false),
+        ("#00ff00", false, true),
+        ("#0000ff", false, true),
+        ("#ff00ff", false, false),
+        ("#808080", true, false),
+        ("#000000", true, false),
+    ] {
+        let color: Color = color.parse().expect("it is a colour");
+        assert_eq!((reds.contains(color), range.contains(color)), (is_red, is_in_range), "{color}");
+    }
+}
