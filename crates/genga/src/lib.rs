@@ -7,8 +7,8 @@
 pub mod import;
 pub mod render;
 pub mod scene;
-pub mod shapes;
 pub mod scene_file;
+pub mod shapes;
 pub mod style;
 mod toml_file;
 

@@ -111,12 +111,16 @@ pub(crate) fn line_scale(prepared: &Prepared, view: &View) -> f32 {
     view.size[1] as f32 / prepared.style.lines.reference_height.max(1.0)
 }
 
-/// Pixels that a tile needs on each side beyond what it keeps: half the widest line, and the
-/// texels that detection compares.
+/// Pixels along a line that decide what is drawn at a place of it: see `walk` in
+/// `shaders/passes/candidates.wesl`.
+const LOOKUP_MARGIN: u32 = 48;
+
+/// Pixels that a tile needs on each side beyond what it keeps: half the widest line, and what the
+/// walk along lines looks at.
 pub(crate) fn apron(prepared: &Prepared, view: &View) -> u32 {
     let widest = prepared.style.lines.sets.iter().map(|set| set.width).fold(0.0, f32::max);
     let radius = 0.5 * widest * line_scale(prepared, view) * prepared.max_width_factor.max(1.0);
-    radius.ceil().min(256.0) as u32 + 4
+    radius.ceil().min(256.0) as u32 + LOOKUP_MARGIN
 }
 
 fn vec2(n: [u32; 2]) -> Vec2 {

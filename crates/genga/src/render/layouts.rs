@@ -14,7 +14,7 @@ pub(crate) struct Layouts {
     pub(crate) dynamic: wgpu::BindGroupLayout,
     /// World vertices, edges or indices, range.
     pub(crate) stroke_source: wgpu::BindGroupLayout,
-    /// Group 0 of `candidates`.
+    /// Group 0 of `candidates`: that of `strokes`, segments, arguments.
     pub(crate) candidates: wgpu::BindGroupLayout,
     /// Group 1 of `strokes`.
     pub(crate) segments: wgpu::BindGroupLayout,
@@ -76,7 +76,16 @@ impl Layouts {
                 device,
                 "candidates",
                 S::COMPUTE,
-                &[(0, B::Uniform), (1, B::Storage), (2, B::StorageWrite), (3, B::StorageWrite)],
+                &[
+                    (0, B::Uniform),
+                    (1, B::Storage),
+                    (2, B::StorageWrite),
+                    (3, B::StorageWrite),
+                    (4, B::Uint),
+                    (5, B::Uint),
+                    (6, B::Depth),
+                    (7, B::Float),
+                ],
             ),
             segments: layout(device, "segments", S::VERTEX, &[(0, B::Storage)]),
             strokes: layout(
@@ -86,10 +95,10 @@ impl Layouts {
                 &[
                     (0, B::Uniform),
                     (1, B::Storage),
-                    (2, B::Uint),
-                    (3, B::Uint),
-                    (4, B::Depth),
-                    (5, B::Float),
+                    (4, B::Uint),
+                    (5, B::Uint),
+                    (6, B::Depth),
+                    (7, B::Float),
                 ],
             ),
         }

@@ -197,7 +197,7 @@ impl Renderer {
         let group = || stroke_group(device, &self.layouts, prepared, &targets);
         match prepared.style.lines.method {
             LineMethod::Contour => {
-                self.candidates.run(encoder, prepared, timer);
+                self.candidates.run(device, encoder, &self.layouts, prepared, &targets, timer);
                 self.strokes.run(encoder, prepared, &group(), &targets, timer);
             }
             LineMethod::Reference => {

@@ -9,15 +9,13 @@ var<storage, read> segments: array<Segment>;
 struct Stroke {
     @builtin(position)
     clip: vec4f,
-    @location(0)
-    p_px: vec2f,
-    @location(1) @interpolate(flat)
+    @location(0) @interpolate(flat)
     a: vec2f,
-    @location(2) @interpolate(flat)
+    @location(1) @interpolate(flat)
     b: vec2f,
-    @location(3) @interpolate(flat)
+    @location(2) @interpolate(flat)
     ends: vec4f,
-    @location(4) @interpolate(flat)
+    @location(3) @interpolate(flat)
     owner: vec2u
 }
 
@@ -26,74 +24,37 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     let segment = segments[vertex / 6u];
     var radius = 0.0;
     for (var i = 0u; i < frame.line_set_count; i++) {
-        radius = max(radius, frame.line_sets[i].radius);
+        if (((segment.line_sets >> i) & 1u) != 0u) {
+            radius = max(radius, frame.line_sets[i].radius);
+        }
     }
-    radius *= max(segment.width_a, segment.width_b) * frame.detect.max_width_factor;
+    radius *= max(segment.width_a, segment.width_b);
     let p_px = capsule_corner(vertex % 6u, segment.a, segment.b, radius + 1.0);
     let ndc = ((p_px - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
-    return Stroke(vec4f(ndc, 0.5, 1.0), p_px, segment.a, segment.b, vec4f(segment.depth_a, segment.depth_b, segment.width_a, segment.width_b), vec2u(segment.draw, segment.types));
+    return Stroke(vec4f(ndc, 0.5, 1.0), segment.a, segment.b, vec4f(segment.depth_a, segment.depth_b, segment.width_a, segment.width_b), vec2u(draws[segment.draw].object_id, segment.line_sets));
 }
 
 const HIDDEN_BEHIND_OTHER: f32 = 8.0;
-
-fn owner_width(spine_px: vec2f, line_depth: f32, object: u32) -> f32 {
-    let size = vec2i(textureDimensions(depths));
-    let corner = vec2i(round((spine_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
-    let to_eye = view_to_eye(spine_px);
-    var width = 0.0;
-    var farthest = -1e30;
-    var nearest = 1e30;
-    var slant = 1.0;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        if (textureLoad(ids, at, 0).x == object) {
-            let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
-            nearest = min(nearest, behind);
-            farthest = max(farthest, behind);
-            let normal = textureLoad(normals, at, 0);
-            let normal_in_view = (frame.view_from_world * vec4f(normal.xyz, 0.0)).xyz;
-            slant = min(slant, abs(dot(normal_in_view, to_eye)));
-            width = max(width, normal.a);
-        }
-    }
-    let slack = 4.0 + 2.0 * (farthest - nearest) + min(6.0 / max(slant, 0.01), 48.0);
-    return select(0.0, width, nearest < slack);
-}
 
 @fragment
 fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
     let p_px = in.clip.xy + frame.tile_origin;
     let along = in.b - in.a;
     let t = saturate(dot(p_px - in.a, along) / max(dot(along, along), 1e-12));
-    let spine_px = in.a + t * along;
-    let distance = length(p_px - spine_px);
-    let draw = draws[in.owner.x];
+    let distance = length(p_px - in.a - t * along);
     let line_depth = mix(in.ends.x, in.ends.y, t);
-    if (any(spine_px < vec2f(0.0)) || any(spine_px > frame.picture_size)) {
-        discard;
-    }
-    let line = mask_around(spine_px, in.owner.y);
-    if (line.types == 0u) {
-        discard;
-    }
-    let types = line.types | (in.owner.y & LINE_BORDER);
-    let owner = owner_width(spine_px, line_depth, draw.object_id);
-    let factor = mix(in.ends.z, in.ends.w, t) * line.strength * owner;
-    if (factor <= 0.0) {
-        discard;
-    }
+    let factor = mix(in.ends.z, in.ends.w, t);
     let size = vec2i(textureDimensions(depths));
     let texel = clamp(vec2i(in.clip.xy * frame.gbuffer_scale), vec2i(0), size - 1);
     let here = textureLoad(ids, texel, 0).x;
-    if (here != 0u && here != draw.object_id) {
+    if (here != 0u && here != in.owner.x) {
         if (behind_in_pixels(line_depth, textureLoad(depths, texel, 0)) > HIDDEN_BEHIND_OTHER) {
             discard;
         }
     }
     var coverage = vec4f(0.0);
     for (var i = 0u; i < frame.line_set_count; i++) {
-        let drawn = (frame.line_sets[i].types & types) != 0u && ((draw.line_sets >> i) & 1u) != 0u;
-        if (drawn) {
+        if (((in.owner.y >> i) & 1u) != 0u) {
             coverage[i] = line_coverage(distance, frame.line_sets[i].radius * factor);
         }
     }
@@ -103,53 +64,11 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
 @group(0) @binding(0)
 var<uniform> frame: Frame;
 
-@group(0) @binding(2)
-var mask: texture_2d<u32>;
-
-@group(0) @binding(3)
+@group(0) @binding(5)
 var ids: texture_2d<u32>;
 
-@group(0) @binding(4)
+@group(0) @binding(6)
 var depths: texture_depth_2d;
-
-@group(0) @binding(5)
-var normals: texture_2d<f32>;
-
-struct MaskSample {
-    types: u32,
-    strength: f32
-}
-
-fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
-    let size = vec2i(textureDimensions(mask));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    var types = 0u;
-    var strength = 0u;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        let bits = textureLoad(mask, at, 0).x;
-        let found = bits & wanted & 255u;
-        types |= found;
-        if ((found & LINE_SILHOUETTE) != 0u) {
-            strength = max(strength, (bits >> MASK_SILHOUETTE_SHIFT) & 255u);
-        }
-        if ((found & LINE_CREASE) != 0u) {
-            strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
-        }
-        if ((found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u) {
-            strength = 255u;
-        }
-    }
-    return MaskSample(types, f32(strength) / 255.0);
-}
-
-fn view_to_eye(p_px: vec2f) -> vec3f {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return vec3f(0.0, 0.0, 1.0);
-    }
-    let offset = (p_px - 0.5 * frame.picture_size) * vec2f(1.0, -1.0) * frame.pixel_footprint;
-    return normalize(vec3f(-offset, 1.0));
-}
 
 fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
@@ -200,16 +119,6 @@ struct Detect {
     max_width_factor: f32
 }
 
-const MASK_SILHOUETTE_SHIFT: u32 = 8u;
-
-const MASK_CREASE_SHIFT: u32 = 16u;
-
-const LINE_SILHOUETTE: u32 = 1u;
-
-const LINE_CREASE: u32 = 2u;
-
-const LINE_BORDER: u32 = 16u;
-
 struct Draw {
     base_color: vec4f,
     emissive: vec4f,
@@ -235,7 +144,7 @@ struct Segment {
     width_a: f32,
     width_b: f32,
     draw: u32,
-    types: u32,
+    line_sets: u32,
     reserved_0: u32,
     reserved_1: u32
 }

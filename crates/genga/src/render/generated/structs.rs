@@ -577,7 +577,7 @@ pub(crate) struct Segment {
     pub(crate) width_a: f32,
     pub(crate) width_b: f32,
     pub(crate) draw: u32,
-    pub(crate) types: u32,
+    pub(crate) line_sets: u32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
 }
@@ -611,8 +611,8 @@ const _: () = assert!(
     "offset of Segment.draw does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Segment, types) == 36,
-    "offset of Segment.types does not match WGSL"
+    std::mem::offset_of!(Segment, line_sets) == 36,
+    "offset of Segment.line_sets does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Segment, reserved_0) == 40,

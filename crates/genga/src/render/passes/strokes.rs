@@ -1,4 +1,4 @@
-//! Segments → round-ended strokes, where the mask and the G-buffer show their line.
+//! Visible pieces of lines → round-ended strokes.
 
 use super::surface::{cleared, shader};
 use crate::render::gpu::{
@@ -109,10 +109,10 @@ pub(crate) fn stroke_group(
         &[
             (0, prepared.frame.as_entire_binding()),
             (1, prepared.draw_data.as_entire_binding()),
-            (2, R::TextureView(&targets.mask.view)),
-            (3, R::TextureView(&targets.ids.view)),
-            (4, R::TextureView(&targets.depth.view)),
-            (5, R::TextureView(&targets.normal.view)),
+            (4, R::TextureView(&targets.mask.view)),
+            (5, R::TextureView(&targets.ids.view)),
+            (6, R::TextureView(&targets.depth.view)),
+            (7, R::TextureView(&targets.normal.view)),
         ],
     )
 }

@@ -86,10 +86,10 @@ struct NodeDeform {
 
 /// What the strokes of a scene need.
 pub(crate) struct StrokeData {
+    pub(crate) segments: wgpu::Buffer,
     pub(crate) arguments: wgpu::Buffer,
     /// For each run of edges: group, dynamic offset, count.
     pub(crate) candidates: Vec<(wgpu::BindGroup, u32, u32)>,
-    pub(crate) candidate_group: wgpu::BindGroup,
     pub(crate) segment_group: wgpu::BindGroup,
     /// For each draw: group, dynamic offset, number of indices.
     pub(crate) reference: Vec<(wgpu::BindGroup, u32, u32)>,
@@ -415,7 +415,7 @@ impl<'a> Builder<'a> {
             ],
         );
         let deform = self.deform_data(&geometry);
-        let strokes = self.stroke_data(&geometry, &frame, &draw_data);
+        let strokes = self.stroke_data(&geometry);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {
@@ -490,12 +490,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn stroke_data(
-        &self,
-        geometry: &Geometry,
-        frame: &wgpu::Buffer,
-        draw_data: &wgpu::Buffer,
-    ) -> StrokeData {
+    fn stroke_data(&self, geometry: &Geometry) -> StrokeData {
         use wgpu::BufferUsages as Usage;
         let device = self.device;
         let mut edge_count = 0_usize;
@@ -553,7 +548,8 @@ impl<'a> Builder<'a> {
                 (group(item.world.page, item.chunk.indices.page, false), at, item.chunk.index_count)
             })
             .collect();
-        let capacity = edge_count.clamp(64, PAGE_BYTES / size_of::<Segment>());
+        // Every edge once, and the pieces of long ones.
+        let capacity = (edge_count + 65_536).min(PAGE_BYTES / size_of::<Segment>());
         let segments = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("segments"),
             size: (capacity * size_of::<Segment>()) as u64,
@@ -566,24 +562,13 @@ impl<'a> Builder<'a> {
             Usage::STORAGE | Usage::INDIRECT | Usage::COPY_DST,
             &[0_u32; 5],
         );
-        let candidate_group = bindings::group(
-            device,
-            "candidates",
-            &self.layouts.candidates,
-            &[
-                (0, frame.as_entire_binding()),
-                (1, draw_data.as_entire_binding()),
-                (2, segments.as_entire_binding()),
-                (3, arguments.as_entire_binding()),
-            ],
-        );
         let segment_group = bindings::group(
             device,
             "segments",
             &self.layouts.segments,
             &[(0, segments.as_entire_binding())],
         );
-        StrokeData { arguments, candidates, candidate_group, segment_group, reference }
+        StrokeData { segments, arguments, candidates, segment_group, reference }
     }
 }
 
