@@ -7,7 +7,7 @@ use super::glb::Model;
 use super::teapot::Teapot;
 
 /// The way the sun shines in every scene: from the upper left, in front.
-pub(super) const SUN: Vec3 = Vec3::new(0.45, -0.8, -0.6);
+pub(super) const SUN: Vec3 = Vec3::new(0.4, -0.55, -0.75);
 
 /// The scene of figure 3 in Okuya et al. 2015: a cube, and a plane behind it that is parallel to
 /// its front, so that depth alone finds the outline and normals alone the creases.
@@ -16,8 +16,8 @@ pub(super) fn cube_before_plane() -> Model {
     let red = model.material("red", 0xD9482B, false);
     let wall = model.material("wall", 0xE9E2CF, false);
     model.shape("cube", &cuboid(Vec3::ONE), red, Vec3::new(0.0, 0.5, 0.0));
-    model.shape("plane", &plane(Vec2::new(4.0, 2.6)), wall, Vec3::new(0.0, 1.0, -1.2));
-    model.camera(Vec3::new(2.6, 2.4, 5.2), Vec3::new(0.0, 0.72, -0.5), 30.0);
+    model.shape("plane", &plane(Vec2::new(3.2, 2.2)), wall, Vec3::new(-0.5, 0.9, -1.2));
+    model.camera(Vec3::new(2.4, 2.1, 5.4), Vec3::new(-0.08, 0.72, -0.4), 26.0);
     model.sun(SUN);
     model
 }
@@ -39,8 +39,8 @@ pub(super) fn teapot_on_box() -> Model {
     model.shape("handle", &teapot.handle, handle, on_table);
     model.shape("spout", &teapot.spout, spout, on_table);
     model.shape("box", &cuboid(table), wood, Vec3::Y * (table.y / 2.0));
-    model.shape("plane", &plane(Vec2::new(2.2, 1.3)), wall, Vec3::new(0.0, 0.5, -0.6));
-    model.camera(Vec3::new(0.8, 1.05, 2.1), Vec3::new(0.02, 0.3, 0.0), 26.0);
+    model.shape("plane", &plane(Vec2::new(1.5, 0.85)), wall, Vec3::new(-0.2, 0.36, -0.5));
+    model.camera(Vec3::new(0.75, 0.95, 2.2), Vec3::new(-0.05, 0.33, -0.1), 25.0);
     model.sun(SUN);
     model
 }
@@ -50,9 +50,9 @@ pub(super) fn spheres_near_far() -> Model {
     let mut model = Model::new("spheres-near-far");
     let paint = model.material("ball", 0xE0663C, false);
     let ball = model.mesh("ball", &uv_sphere(64, 32, 0.5), paint);
-    model.object("near", ball, Vec3::new(-0.75, 0.0, 0.0));
-    model.object("far", ball, Vec3::new(2.4, 0.9, -9.0));
-    model.camera(Vec3::new(0.0, 0.3, 4.0), Vec3::new(0.0, 0.1, 0.0), 35.0);
+    model.object("near", ball, Vec3::new(-0.65, 0.0, 0.0));
+    model.object("far", ball, Vec3::new(1.9, 0.7, -9.0));
+    model.camera(Vec3::new(0.0, 0.3, 4.0), Vec3::new(0.0, 0.12, 0.0), 27.0);
     model.sun(SUN);
     model
 }
