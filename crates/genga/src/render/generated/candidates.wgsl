@@ -139,16 +139,16 @@ fn walk(line: Line) {
             width_count += 1.0;
         }
         let changes = pending_count >= needed;
-        let at = select(i + 1u, i + 1u - pending_count, changes);
-        let is_piece = changes || (i + 1u) % PIECE == 0u || i + 1u == end;
-        if (is_piece) {
-            let width = select(max(last_width, 0.0), width_sum / max(width_count, 1.0), width_count > 0.0);
+        if (changes || (i + 1u) % PIECE == 0u) {
+            let at = select(i + 1u, i + 1u - pending_count, changes);
+            let width = mean_width(width_sum, width_count, last_width);
             if (sets != 0u && at > start) {
-                append(line, f32(start) / f32(lookups), f32(at) / f32(lookups), select(last_width, width, last_width < 0.0), width, sets);
+                let width_0 = select(last_width, width, last_width < 0.0);
+                append(line, f32(start) / f32(lookups), f32(at) / f32(lookups), width_0, width, sets);
                 last_width = width;
             }
             start = at;
-            if (!changes || sets != 0u) {
+            if (sets != 0u) {
                 width_sum = 0.0;
                 width_count = 0.0;
             }
@@ -164,6 +164,15 @@ fn walk(line: Line) {
             }
         }
     }
+    if (sets != 0u && end > start) {
+        let width = mean_width(width_sum, width_count, last_width);
+        let width_0 = select(last_width, width, last_width < 0.0);
+        append(line, f32(start) / f32(lookups), f32(end) / f32(lookups), width_0, width, sets);
+    }
+}
+
+fn mean_width(sum: f32, count: f32, last: f32) -> f32 {
+    return select(max(last, 0.0), sum / max(count, 1.0), count > 0.0);
 }
 
 fn part_in_tile(a: vec2f, along: vec2f) -> vec2f {

@@ -26,7 +26,10 @@ impl<'a> Textures<'a> {
     }
 
     /// The picture and sampler of a material's texture; white where there is none.
-    pub(crate) fn get(&mut self, texture: Option<TextureRef>) -> (wgpu::TextureView, wgpu::Sampler) {
+    pub(crate) fn get(
+        &mut self,
+        texture: Option<TextureRef>,
+    ) -> (wgpu::TextureView, wgpu::Sampler) {
         let texture = texture.and_then(|t| self.scene.textures.get(t.texture));
         let sampler = texture.map_or_else(Sampler::default, |t| t.sampler);
         let view = match texture.and_then(|t| t.image) {
@@ -38,9 +41,10 @@ impl<'a> Textures<'a> {
 
     /// A picture of a style; white where there is none.
     pub(crate) fn style_image(&self, image: Option<&Arc<Image>>) -> wgpu::TextureView {
-        image.map_or_else(|| self.white.clone(), |image| {
-            upload(self.device, self.queue, &fitted(self.device, image).0, false)
-        })
+        image.map_or_else(
+            || self.white.clone(),
+            |image| upload(self.device, self.queue, &fitted(self.device, image).0, false),
+        )
     }
 
     fn image(&mut self, index: usize) -> wgpu::TextureView {
@@ -108,7 +112,12 @@ fn fitted<'a>(device: &wgpu::Device, image: &'a Image) -> (std::borrow::Cow<'a, 
     (result, was_reduced)
 }
 
-fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, mips: bool) -> wgpu::TextureView {
+fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    image: &Image,
+    mips: bool,
+) -> wgpu::TextureView {
     let mut data = image.rgba.clone();
     let mut levels = 1;
     if mips {
@@ -128,7 +137,11 @@ fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, mips: bool)
         queue,
         &wgpu::TextureDescriptor {
             label: Some("image"),
-            size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d {
+                width: image.width,
+                height: image.height,
+                depth_or_array_layers: 1,
+            },
             mip_level_count: levels,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -201,7 +214,8 @@ mod tests {
 
     #[test]
     fn mips_average_in_linear_light() {
-        let checker = image(2, 2, &[255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255]);
+        let checker =
+            image(2, 2, &[255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255]);
         assert_eq!(half(&checker).rgba, [188, 188, 188, 255]);
     }
 
