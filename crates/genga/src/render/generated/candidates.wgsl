@@ -232,18 +232,19 @@ fn owner_width(p_px: vec2f, line_depth: f32, object: u32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let corner = vec2i(round((p_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
     var width = 0.0;
-    var farthest = -1e30;
-    var nearest = 1e30;
+    var behind_all = 1e30;
+    var own_range = vec2f(1e30, -1e30);
     for (var i = 0; i < 4; i++) {
         let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
+        let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
+        behind_all = min(behind_all, behind);
         if (textureLoad(ids, at, 0).x == object) {
-            let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
-            nearest = min(nearest, behind);
-            farthest = max(farthest, behind);
+            own_range = vec2f(min(own_range.x, behind), max(own_range.y, behind));
             width = max(width, textureLoad(normals, at, 0).a);
         }
     }
-    return select(0.0, width, nearest < 32.0 + 2.0 * (farthest - nearest));
+    let slack = 16.0 + 2.0 * max(own_range.y - own_range.x, 0.0);
+    return select(0.0, width, behind_all < slack);
 }
 
 fn append(line: Line, t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32) {

@@ -57,7 +57,7 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
         let soft = max(max(looks[look_index].rim_softness, rim_width), 1e-6);
         let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
         let ink = saturate((threshold - rim) / soft + 0.5);
-        let line = frame.line_sets[0].color;
+        let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
         let strength = ink * line.a * select(1.0, alpha, (draw.flags & DRAW_ALPHA_BLEND) != 0u);
         result = vec4f(mix(result.rgb, line.rgb, strength), mix(result.a, 1.0, strength));
     }
@@ -85,7 +85,7 @@ fn hull_vertex(in: VertexInput) -> Hull {
     let factor = looks[draw.look_first].line_width * in.line_width;
     let normal = octahedral_unpack(in.smooth_normal);
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    let radius_px = frame.line_sets[0].radius * 2.0;
+    let radius_px = frame.line_sets[max(frame.line_set_count, 1u) - 1u].radius * 2.0;
     var offset = looks[draw.look_first].hull_width_m;
     if (offset <= 0.0) {
         offset = radius_px * footprint(frame, max(clip.w, frame.depth_range.x));
@@ -110,57 +110,8 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
     if (in.shown <= 0.0) {
         discard;
     }
-    let line = frame.line_sets[0].color;
+    let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
     return vec4f(line.rgb * line.a, line.a);
-}
-
-struct VertexInput {
-    @location(0)
-    p_in_world: vec3f,
-    @location(1)
-    normal: u32,
-    @location(2)
-    smooth_normal: u32,
-    @location(3)
-    line_width: f32,
-    @location(4)
-    uv0: vec2f,
-    @location(5)
-    uv1: vec2f,
-    @location(6)
-    color: vec4f,
-    @builtin(instance_index)
-    draw: u32
-}
-
-struct Surface {
-    @invariant @builtin(position)
-    clip: vec4f,
-    @location(0)
-    p_in_world: vec3f,
-    @location(1)
-    normal: vec3f,
-    @location(2)
-    base_uv: vec2f,
-    @location(3)
-    emissive_uv: vec2f,
-    @location(4)
-    id_uv: vec2f,
-    @location(5)
-    color: vec4f,
-    @location(6)
-    line_width: f32,
-    @location(7) @interpolate(flat)
-    draw: u32
-}
-
-fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
-    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
-}
-
-fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
-    let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
 }
 
 @group(0) @binding(0)
@@ -327,6 +278,68 @@ const LIGHT_DIRECTIONAL: u32 = 0u;
 
 const LIGHT_SPOT: u32 = 2u;
 
+struct VertexInput {
+    @location(0)
+    p_in_world: vec3f,
+    @location(1)
+    normal: u32,
+    @location(2)
+    smooth_normal: u32,
+    @location(3)
+    line_width: f32,
+    @location(4)
+    uv0: vec2f,
+    @location(5)
+    uv1: vec2f,
+    @location(6)
+    color: vec4f,
+    @builtin(instance_index)
+    draw: u32
+}
+
+struct Surface {
+    @invariant @builtin(position)
+    clip: vec4f,
+    @location(0)
+    p_in_world: vec3f,
+    @location(1)
+    normal: vec3f,
+    @location(2)
+    base_uv: vec2f,
+    @location(3)
+    emissive_uv: vec2f,
+    @location(4)
+    id_uv: vec2f,
+    @location(5)
+    color: vec4f,
+    @location(6)
+    line_width: f32,
+    @location(7) @interpolate(flat)
+    draw: u32
+}
+
+fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
+    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
+}
+
+fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
+    let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
+    return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn octahedral_unpack(bits: u32) -> vec3f {
+    let p = unpack2x16snorm(bits);
+    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) {
+        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
+    }
+    return normalize(n);
+}
+
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
@@ -359,19 +372,6 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
         return frame.pixel_footprint;
     }
     return frame.pixel_footprint * distance;
-}
-
-fn sign_not_zero(v: vec2f) -> vec2f {
-    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn octahedral_unpack(bits: u32) -> vec3f {
-    let p = unpack2x16snorm(bits);
-    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) {
-        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
-    }
-    return normalize(n);
 }
 
 struct MaterialSample {

@@ -1,6 +1,9 @@
 //! Pictures on the GPU, with mip levels.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{
+    collections::HashMap,
+    sync::{Arc, LazyLock},
+};
 
 use wgpu::util::DeviceExt as _;
 
@@ -158,15 +161,7 @@ fn upload(
 /// The next mip level: means of 2×2 texels in linear light, weighted by alpha.
 fn half(image: &Image) -> Image {
     let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
-    let linear: Vec<f32> = (0..256).map(|v| linear_from_srgb(v as f32 / 255.0)).collect();
-    // 4096 steps are fine enough for 8 bits everywhere but in the darkest tones, where the square
-    // root spreads them.
-    let encoded: Vec<u8> = (0..=4096)
-        .map(|i| {
-            let root = i as f32 / 4096.0;
-            (srgb_from_linear(root * root) * 255.0).round() as u8
-        })
-        .collect();
+    let (linear, encoded) = (&*LINEAR, &*ENCODED);
     let mut rgba = Vec::with_capacity(4 * width as usize * height as usize);
     for y in 0..height {
         let rows = [2 * y, (2 * y + 1).min(image.height - 1)];
@@ -188,13 +183,26 @@ fn half(image: &Image) -> Image {
             }
             for c in 0..3 {
                 let value = if alpha > 0.0 { sum[c] / alpha } else { plain[c] / 4.0 };
-                rgba.push(encoded[(value.clamp(0.0, 1.0).sqrt() * 4096.0).round() as usize]);
+                rgba.push(encoded[(value.clamp(0.0, 1.0).sqrt() * 65536.0).round() as usize]);
             }
             rgba.push((alpha / 4.0 * 255.0).round() as u8);
         }
     }
     Image { name: image.name.clone(), width, height, rgba }
 }
+
+/// Linear light of each 8-bit sRGB value.
+static LINEAR: LazyLock<Vec<f32>> =
+    LazyLock::new(|| (0..256).map(|v| linear_from_srgb(v as f32 / 255.0)).collect());
+
+/// The 8-bit sRGB value by the square root of linear light, which spreads the darkest tones.
+static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let encode = |i: u32| {
+        let root = i as f32 / 65536.0;
+        (srgb_from_linear(root * root) * 255.0).round() as u8
+    };
+    (0..=65536).map(encode).collect()
+});
 
 fn linear_from_srgb(v: f32) -> f32 {
     if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
