@@ -72,11 +72,10 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
     let mut positions: Vec<Vec3> = accessor.floats();
     let vertices = positions.len();
     let corners = read_indices(file, what, item, vertices)?;
-    let mut indices = triangles(mode, &corners);
     if mode == 4 && corners.len() % 3 != 0 {
         file.warn(format!("The last triangle of {what} is incomplete and left out."));
     }
-    drop(corners);
+    let mut indices = triangles(mode, corners);
 
     // Triangles at impossible places go, the rest is drawn.
     let mut broken: Vec<bool> = Vec::new();
@@ -158,7 +157,7 @@ fn read_indices(
 }
 
 /// The triangle list of a list (4), strip (5) or fan (6), wound as glTF 2.0, 3.7.2.1 says.
-fn triangles(mode: usize, corners: &[u32]) -> Vec<u32> {
+fn triangles(mode: usize, mut corners: Vec<u32>) -> Vec<u32> {
     match mode {
         5 => corners
             .windows(3)
@@ -174,7 +173,10 @@ fn triangles(mode: usize, corners: &[u32]) -> Vec<u32> {
             let pairs = rim.windows(2);
             pairs.flat_map(|pair| pair.iter().copied().chain([centre])).collect()
         }
-        _ => corners.as_chunks::<3>().0.as_flattened().to_vec(),
+        _ => {
+            corners.truncate(corners.len() / 3 * 3);
+            corners
+        }
     }
 }
 

@@ -86,6 +86,7 @@ impl<'a> Materials<'a> {
         let libraries = match &whole {
             Err(_) if names.contains(char::is_whitespace) => names
                 .split_whitespace()
+                .filter(|name| self.libraries.insert((*name).to_owned()))
                 .map(|name| (name, files::read_relative(name, self.files)))
                 .collect(),
             _ => vec![(names, whole)],
