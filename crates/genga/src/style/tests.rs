@@ -237,6 +237,21 @@ fn errors_name_the_place_and_the_remedy() {
 }
 
 #[test]
+fn errors_may_say_what_to_do() {
+    for (text, expected) in [
+        ("", Some("write 'version = 1' in the first line")),
+        ("version = 2", Some("a newer Genga may know this version")),
+        ("version = '1'", None),
+        ("version = 1\nbackground = { colour = '#fff' }", Some("known here: 'color', 'bottom'")),
+        ("version = 1\nlines.method = 'countour'", Some("did you mean \"contour\"?")),
+        ("version = 1\n[override]\nselect = {}", Some("begin each with two brackets: '[[…]]'")),
+        ("version = 1\n[[override]]\nselect.objects = {}", None),
+    ] {
+        assert_eq!(error(text).help.as_deref(), expected, "{text}");
+    }
+}
+
+#[test]
 fn globs_ignore_case_and_compile_whole_names() {
     let globs = Globs::new(["Head*", "Face_?", "[xy]", "É目?"]).expect("they are globs");
     for name in ["head", "HEAD.001", "Face_1", "face_é", "X", "é目玉"] {
