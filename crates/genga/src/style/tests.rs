@@ -220,6 +220,10 @@ fn errors_name_the_place_and_the_remedy() {
             "3:17: 'visible' must be true or false, not 1",
         ),
         (
+            &format!("version = 1\n{}", "[[override]]\n".repeat(257)),
+            "2:1: 'override' must be a list of at most 256, each a table, not a list of 257",
+        ),
+        (
             "version = 1\nextends = \"american-comics\"",
             "2:11: unknown style 'american-comics', did you mean 'american-comic'?",
         ),
