@@ -33,15 +33,15 @@ struct Picture {
     file: String,
 }
 
-/// What is drawn: all models, and the scenes that there are.
-fn subjects(root: &Path) -> Result<Vec<PathBuf>> {
-    let mut subjects = models::files(root)?;
-    let scenes = root.join("assets/scenes");
-    if scenes.is_dir() {
-        let files = crate::files_with_extension(&scenes, "toml")?;
-        subjects.extend(files.into_iter().filter(|file| name_of(file).ends_with(".scene.toml")));
+/// The scene files that there are, sorted by name.
+fn scenes(root: &Path) -> Result<Vec<PathBuf>> {
+    let folder = root.join("assets/scenes");
+    if !folder.is_dir() {
+        return Ok(Vec::new());
     }
-    Ok(subjects)
+    let mut scenes = crate::files_with_extension(&folder, "toml")?;
+    scenes.retain(|file| name_of(file).ends_with(".scene.toml"));
+    Ok(scenes)
 }
 
 /// Builds genga, finds something to draw with, and draws each subject in each preset.
@@ -49,15 +49,25 @@ fn draw(root: &Path, folder: &Path, size: &str) -> Result<Vec<Picture>> {
     let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
     adapter::ensure(&genga)?;
     fs::create_dir_all(folder).map_err(Error::io("cannot make the folder", folder))?;
-    let subjects = subjects(root)?;
+    let (models, scenes) = (models::files(root)?, scenes(root)?);
     let styles = process::output(Command::new(&genga).arg("styles"))?;
     let mut pictures = Vec::new();
     for style in preset_names(&styles) {
         let template = folder.join(format!("{{model}}-{style}.png"));
-        let mut render = Command::new(&genga);
-        render.arg("render").args(&subjects).args(["--style", style, "--size", size]);
-        process::run(render.arg("--output").arg(template))?;
-        for subject in &subjects {
+        // Paths below the root, which are shorter to read.
+        let short = |path: &Path| path.strip_prefix(root).unwrap_or(path).to_owned();
+        let render = |subjects: &[PathBuf], more: &[&str]| {
+            let mut render = Command::new(&genga);
+            render.current_dir(root).args(["render", "--style", style, "--size", size]).args(more);
+            render.arg("--output").arg(short(&template));
+            process::run(render.args(subjects.iter().map(|path| short(path))))
+        };
+        // Each of our models has a camera of that name, which shows it as it is meant.
+        render(&models, &["--camera", "camera"])?;
+        if !scenes.is_empty() {
+            render(&scenes, &[])?;
+        }
+        for subject in models.iter().chain(&scenes) {
             let subject = stem(subject);
             let file = format!("{subject}-{style}.png");
             if !folder.join(&file).is_file() {
@@ -129,12 +139,9 @@ mod tests {
     }
 
     #[test]
-    fn all_models_are_subjects() {
-        let subjects = subjects(&crate::root()).unwrap();
-        let names: Vec<String> = subjects.iter().map(|path| stem(path)).collect();
-        for name in ["cube-before-plane", "spheres-near-far", "teapot-on-box"] {
-            assert!(names.iter().any(|found| found == name), "{names:?}");
-        }
+    fn a_subject_is_named_up_to_the_first_dot() {
+        assert_eq!(stem(Path::new("assets/scenes/shot.scene.toml")), "shot");
+        assert_eq!(stem(Path::new("assets/models/cube-before-plane.glb")), "cube-before-plane");
     }
 
     #[test]
