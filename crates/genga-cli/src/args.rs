@@ -1,0 +1,131 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// Draws 3-D models as anime and American comics.
+#[derive(Debug, Parser)]
+#[command(name = "genga", bin_name = "genga", version, propagate_version = true, after_help = EXAMPLES)]
+#[command(arg_required_else_help = true)]
+pub(crate) struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Command,
+
+    /// Print errors only: no warnings, notes or progress
+    #[arg(short, long, global = true, conflicts_with = "verbose", display_order = 900)]
+    pub(crate) quiet: bool,
+
+    /// Log what happens; twice or three times for more
+    #[arg(short, long, global = true, action = clap::ArgAction::Count, display_order = 901)]
+    pub(crate) verbose: u8,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  genga styles
+  genga info Knight.glb
+  genga check ink.style.toml Knight.glb
+
+'genga COMMAND --help' has more.";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Show what is in a model, and what is wrong with its geometry
+    Info(InfoArgs),
+    /// List the styles that come with the program, or print one to start from
+    Styles(StylesArgs),
+    /// Read style files and models strictly, and print what is wrong with them
+    Check(CheckArgs),
+    /// Print the JSON Schema of a kind of file, for editors
+    Schema(SchemaArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  genga info Knight.glb
+  genga info --json Knight.glb > knight.json")]
+pub(crate) struct InfoArgs {
+    /// Model (.gltf, .glb, .obj)
+    pub(crate) model: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  genga styles
+  genga styles american-comic > mine.style.toml")]
+pub(crate) struct StylesArgs {
+    /// Print this style's file
+    pub(crate) name: Option<String>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Exit status 0 means that nothing is wrong with any of the files.
+
+Examples:
+  genga check mine.style.toml
+  genga check Knight.glb Fox.glb")]
+pub(crate) struct CheckArgs {
+    /// Style files (.style.toml) and models (.gltf, .glb, .obj)
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  genga schema style > style.schema.json")]
+pub(crate) struct SchemaArgs {
+    /// Kind of file
+    pub(crate) kind: SchemaKind,
+}
+
+/// Kinds of files that have a schema.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum SchemaKind {
+    /// *.style.toml
+    Style,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    /// The example lines of a command's help and of all its subcommands.
+    fn examples(command: &clap::Command) -> Vec<String> {
+        let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+        let lines = help.lines().filter(|line| line.starts_with("  genga ")).map(str::to_owned);
+        lines.chain(command.get_subcommands().flat_map(examples)).collect()
+    }
+
+    #[test]
+    fn the_command_line_is_sound() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn every_command_has_examples_that_parse() {
+        for command in Args::command().get_subcommands() {
+            assert!(!examples(command).is_empty(), "{} has no example", command.get_name());
+        }
+        for line in examples(&Args::command()) {
+            // What the shell does with the rest of the line is its own matter.
+            let words = line.split_whitespace().take_while(|word| !["|", ">"].contains(word));
+            let words = words.map(|word| word.trim_matches('\''));
+            if let Err(error) = Args::try_parse_from(words) {
+                panic!("'{line}' does not parse: {error}");
+            }
+        }
+    }
+}
