@@ -1,8 +1,14 @@
 //! The command line.
 
+mod picture;
+mod values;
+
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
+
+pub(crate) use picture::{OrbitArgs, PictureArgs, RenderArgs, TurntableArgs};
+pub(crate) use values::FrameRange;
 
 /// Draws 3-D models as anime and American comics.
 #[derive(Debug, Parser)]
@@ -24,23 +30,42 @@ pub(crate) struct Args {
 
 const EXAMPLES: &str = "\
 Examples:
-  genga styles
+  genga render Knight.glb --style american-comic -o knight.png
+  genga turntable Knight.glb --count 48 -o 'turn/{frame:04}.png'
   genga info Knight.glb
-  genga check ink.style.toml Knight.glb
+  genga styles
 
 'genga COMMAND --help' has more.";
 
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Draw models and scenes as PNG pictures
+    Render(RenderArgs),
+    /// Draw a model from all sides, as the frames of a full turn
+    Turntable(TurntableArgs),
     /// Show what is in a model, and what is wrong with its geometry
     Info(InfoArgs),
     /// List the styles that come with the program, or print one to start from
     Styles(StylesArgs),
-    /// Read style files and models strictly, and print what is wrong with them
+    /// Read styles, scenes and models strictly, and print what is wrong with them
     Check(CheckArgs),
     /// Print the JSON Schema of a kind of file, for editors
     Schema(SchemaArgs),
+    /// List the graphics adapters of this machine
+    Adapters(AdaptersArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  genga adapters
+  genga adapters --json
+  genga render Knight.glb --adapter llvmpipe")]
+pub(crate) struct AdaptersArgs {
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -73,9 +98,9 @@ Exit status 0 means that nothing is wrong with any of the files.
 
 Examples:
   genga check mine.style.toml
-  genga check Knight.glb Fox.glb")]
+  genga check shot.scene.toml Knight.glb")]
 pub(crate) struct CheckArgs {
-    /// Style files (.style.toml) and models (.gltf, .glb, .obj)
+    /// Styles (.style.toml), scenes (.scene.toml) and models (.gltf, .glb, .obj)
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
 }
@@ -83,7 +108,8 @@ pub(crate) struct CheckArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  genga schema style > style.schema.json")]
+  genga schema style > style.schema.json
+  genga schema scene > scene.schema.json")]
 pub(crate) struct SchemaArgs {
     /// Kind of file
     pub(crate) kind: SchemaKind,
@@ -94,6 +120,8 @@ pub(crate) struct SchemaArgs {
 pub(crate) enum SchemaKind {
     /// *.style.toml
     Style,
+    /// *.scene.toml
+    Scene,
 }
 
 #[cfg(test)]

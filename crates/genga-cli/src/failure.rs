@@ -1,14 +1,19 @@
 use std::fmt::Display;
 use std::io;
+use std::process::ExitCode;
 
 use genga::FileError;
+use genga::scene_file::SceneFileError;
 use genga::style::StyleError;
 
+use crate::console::Console;
 use crate::snippet;
 
 /// Why the program could not do what it was asked.
 #[derive(Debug)]
 pub(crate) enum Failure {
+    /// The command line itself asks for something impossible: exit status 2.
+    Usage(String),
     /// Something went wrong while doing it.
     Message(String),
     /// A place in a file that people write, shown with its line.
@@ -37,11 +42,27 @@ impl Failure {
     }
 
     /// What to print after `error: `, if anything.
-    pub(crate) fn report(&self) -> Option<String> {
+    fn report(&self) -> Option<String> {
         match self {
+            Self::Usage(text) => Some(format!("{text}\n\nFor more information, try '--help'.")),
             Self::Message(text) => Some(text.clone()),
             Self::File(error) => Some(snippet::file_error(error)),
             Self::Reported => None,
+        }
+    }
+
+    /// Prints it on standard error.
+    pub(crate) fn print(&self, console: &Console) {
+        if let Some(text) = self.report() {
+            console.error(&text);
+        }
+    }
+
+    /// 2 for a wrong command line, as clap has it, and 1 for the rest.
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        match self {
+            Self::Usage(_) => ExitCode::from(2),
+            _ => ExitCode::FAILURE,
         }
     }
 }
@@ -56,6 +77,15 @@ impl From<StyleError> for Failure {
     fn from(error: StyleError) -> Self {
         match error {
             StyleError::File(error) => error.into(),
+            other => Self::message(other),
+        }
+    }
+}
+
+impl From<SceneFileError> for Failure {
+    fn from(error: SceneFileError) -> Self {
+        match error {
+            SceneFileError::File(error) => error.into(),
             other => Self::message(other),
         }
     }

@@ -4,10 +4,18 @@ mod args;
 mod commands;
 mod console;
 mod failure;
+mod gpu;
 mod inspect;
 mod model;
+mod names;
+mod output;
+mod save;
 mod snippet;
+mod source;
+mod style_choice;
+mod template;
 mod text;
+mod view;
 
 use std::process::ExitCode;
 
@@ -22,18 +30,19 @@ fn main() -> ExitCode {
     start_log(args.verbose, args.quiet);
     let console = Console::new(args.quiet);
     let result = match args.command {
+        Command::Render(args) => commands::render::run(&args, &console),
+        Command::Turntable(args) => commands::turntable::run(&args, &console),
         Command::Info(args) => commands::info::run(&args, &console),
         Command::Styles(args) => commands::styles::run(&args),
         Command::Check(args) => commands::check::run(&args, &console),
         Command::Schema(args) => commands::schema::run(&args),
+        Command::Adapters(args) => commands::adapters::run(&args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            if let Some(text) = failure.report() {
-                console.error(&text);
-            }
-            ExitCode::FAILURE
+            failure.print(&console);
+            failure.exit_code()
         }
     }
 }

@@ -1,6 +1,7 @@
+use std::cell::RefCell;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use genga::import::{self, ImportError, Problem};
 use genga::scene::Scene;
@@ -11,18 +12,25 @@ pub(crate) struct Model {
     pub(crate) scene: Scene,
     /// What was left out or repaired.
     pub(crate) warnings: Vec<String>,
+    /// The file and those that it refers to: none of them may be overwritten.
+    pub(crate) files: Vec<PathBuf>,
 }
 
-/// Reads a model.
+/// Reads a model and remembers which files it came from.
 pub(crate) fn load(path: &Path) -> Result<Model, ImportError> {
     let name = path.display().to_string();
     let bytes = read(path)
         .map_err(|error| ImportError { file: name.clone(), problem: Problem::Read(error) })?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut imported =
-        import::from_bytes(&name, &bytes, None, &|relative| read(&folder.join(relative)))?;
+    let files = RefCell::new(vec![path.to_owned()]);
+    let mut imported = import::from_bytes(&name, &bytes, None, &|relative| {
+        let path = folder.join(relative);
+        let bytes = read(&path)?;
+        files.borrow_mut().push(path);
+        Ok(bytes)
+    })?;
     imported.scene.name = display_name(path);
-    Ok(Model { scene: imported.scene, warnings: imported.warnings })
+    Ok(Model { scene: imported.scene, warnings: imported.warnings, files: files.into_inner() })
 }
 
 /// The bytes of a regular file; devices and pipes need not end.

@@ -6,6 +6,7 @@ use crate::failure::{Failure, Outcome};
 pub(crate) fn run(args: &SchemaArgs) -> Outcome {
     let schema = match args.kind {
         SchemaKind::Style => genga::style::json_schema(),
+        SchemaKind::Scene => genga::scene_file::json_schema(),
     };
     let text = serde_json::to_string_pretty(&schema).map_err(Failure::message)?;
     console::print(&format!("{text}\n"))
