@@ -54,6 +54,54 @@ pub(crate) enum Command {
     Schema(SchemaArgs),
     /// List the graphics adapters of this machine
     Adapters(AdaptersArgs),
+    /// Measure how long frames take, against a plain picture of the same geometry
+    Bench(BenchArgs),
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Workloads:
+  suzuki  11,098 vertices at 1024x768 (Suzuki 2004, 5.2)
+  okuya   three objects at three sizes, two line methods (Okuya et al. 2015, table 3)
+  import  a file of a million triangles, read and prepared
+
+Each frame is drawn by turns with a plain one: the same geometry, one pass, Lambert and texture,
+no lines. The ratio of their medians is what compares across machines.
+
+Examples:
+  genga bench
+  genga bench suzuki --runs 200 --json > suzuki.json
+  genga bench Knight.glb --size 1280x720 --style anime")]
+pub(crate) struct BenchArgs {
+    /// Workloads by name, and models; all named ones if none is given
+    #[arg(value_name = "WORKLOAD|MODEL")]
+    pub(crate) workloads: Vec<String>,
+
+    /// Frames of each kind that are measured
+    #[arg(long, default_value_t = 50, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub(crate) runs: u32,
+
+    /// Style: the name of one that comes with the program, or a file [default: american-comic]
+    #[arg(short, long, value_name = "NAME|FILE")]
+    pub(crate) style: Option<String>,
+
+    /// Width and height in pixels, instead of the workload's own
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub(crate) size: Option<[u32; 2]>,
+
+    /// Samples per pixel along each axis, 1 to 4
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]
+    pub(crate) supersample: u32,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+
+    /// Draw with the graphics adapter that has this in its name
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]

@@ -37,6 +37,7 @@ fn main() -> ExitCode {
         Command::Check(args) => commands::check::run(&args, &console),
         Command::Schema(args) => commands::schema::run(&args),
         Command::Adapters(args) => commands::adapters::run(&args),
+        Command::Bench(args) => commands::bench::run(&args, &console),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,6 +1,7 @@
 //! What each command does.
 
 pub(crate) mod adapters;
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod info;
 pub(crate) mod render;
