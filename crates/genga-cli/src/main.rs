@@ -25,6 +25,7 @@ use args::{Args, Command};
 use console::Console;
 
 fn main() -> ExitCode {
+    keep_wayland_quiet();
     // Prints help and usage errors itself, and ends with status 0 and 2.
     let args = Args::parse();
     start_log(args.verbose, args.quiet);
@@ -58,4 +59,16 @@ fn start_log(verbose: u8, quiet: bool) {
     };
     let env = env_logger::Env::default().default_filter_or(filter);
     env_logger::Builder::from_env(env).init();
+}
+
+/// Mesa's Vulkan layer asks Wayland which GPU to prefer. Without a session, as on servers, that
+/// prints an `error:` which is none; with a folder to look for the session in, it does not.
+fn keep_wayland_quiet() {
+    if cfg!(target_os = "linux") && std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        #[allow(unsafe_code, reason = "the environment cannot be set otherwise")]
+        // SAFETY: this is the first thing the program does, so there are no other threads.
+        unsafe {
+            std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir());
+        }
+    }
 }
