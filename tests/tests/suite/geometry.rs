@@ -1,0 +1,1 @@
+//! Deformation and projection against f64 on the processor.
