@@ -7,6 +7,7 @@ pub mod compare;
 pub mod eye;
 pub mod gpu;
 pub mod pixels;
+pub mod reference;
 pub mod scenes;
 
 pub use compare::{Difference, Tolerance, difference};
