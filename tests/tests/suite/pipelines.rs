@@ -1,0 +1,122 @@
+//! Every pipeline on wgpu's `noop` backend, with WebGPU's default limits and no features: what
+//! wgpu validates there, browsers validate too.
+
+use std::sync::{Arc, Mutex};
+
+use genga::render::{LayerKind, Renderer, View};
+use genga::scene::{AlphaMode, Material, Scene};
+use genga::{shapes, style::Style};
+use genga_tests::scenes::{Builder, moved, ortho_view, parts, perspective_view, style};
+use glam::{Quat, Vec3, Vec4};
+
+/// A device that accepts everything valid and does nothing.
+fn noop_device() -> (wgpu::Device, wgpu::Queue) {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::NOOP;
+    descriptor.backend_options.noop.enable = true;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default()))
+        .expect("the noop backend is part of this build");
+    assert_eq!(adapter.get_info().backend, wgpu::Backend::Noop);
+    pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+        required_features: wgpu::Features::empty(),
+        required_limits: wgpu::Limits::default(),
+        ..Default::default()
+    }))
+    .expect("the noop backend gives a device")
+}
+
+/// All that surfaces can be: mirrored, double-sided, masked, blended.
+fn scene_of_all_kinds() -> Scene {
+    let mut scene = Builder::new();
+    let kinds = [
+        (AlphaMode::Opaque, false),
+        (AlphaMode::Mask { cutoff: 0.5 }, true),
+        (AlphaMode::Blend, false),
+        (AlphaMode::Blend, true),
+    ];
+    for (i, (alpha, double_sided)) in kinds.into_iter().enumerate() {
+        let material = scene.material(Material {
+            name: format!("material {i}"),
+            alpha,
+            double_sided,
+            base_color: Vec4::new(1.0, 0.5, 0.2, 0.7),
+            ..Material::default()
+        });
+        let at = moved(i as f32, 0.0, 0.0);
+        scene.object("plain", shapes::cuboid(Vec3::ONE), Some(material), at);
+        let mirror = parts(Vec3::NEG_Y, Quat::IDENTITY, Vec3::new(-1.0, 1.0, 1.0));
+        scene.object("mirrored", shapes::cuboid(Vec3::ONE), Some(material), mirror);
+    }
+    scene.build()
+}
+
+const METHODS: [&str; 6] = ["none", "contour", "reference", "hull", "rim", "image"];
+
+fn styles() -> Vec<Style> {
+    let mut styles: Vec<Style> =
+        METHODS.iter().map(|m| style(&format!("[lines]\nmethod = \"{m}\""))).collect();
+    styles.push(style("[paint]\nblend_space = \"linear\""));
+    styles
+}
+
+#[test]
+fn every_pipeline_is_valid_with_default_limits() {
+    let (device, queue) = noop_device();
+    let faults = Arc::new(Mutex::new(Vec::new()));
+    let slot = Arc::clone(&faults);
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        slot.lock().expect("no test panics while it holds this").push(error.to_string());
+    }));
+    let renderer = Renderer::new(&device, &queue).expect("the renderer's own pipelines are valid");
+    let scene = scene_of_all_kinds();
+    let formats = [
+        wgpu::TextureFormat::Rgba8Unorm,
+        wgpu::TextureFormat::Rgba8UnormSrgb,
+        wgpu::TextureFormat::Bgra8Unorm,
+        wgpu::TextureFormat::Rgba16Float,
+    ];
+    for style in styles() {
+        let prepared = renderer.prepare(&scene, &style).expect("the scene is valid");
+        for view in [perspective_view([48, 32], 40.0, 8.0), ortho_view([48, 32], 4.0)] {
+            for supersample in [1, 2] {
+                let view = View { supersample, ..view };
+                for format in formats {
+                    let target = device.create_texture(&wgpu::TextureDescriptor {
+                        label: None,
+                        size: wgpu::Extent3d { width: 48, height: 32, depth_or_array_layers: 1 },
+                        mip_level_count: 1,
+                        sample_count: 1,
+                        dimension: wgpu::TextureDimension::D2,
+                        format,
+                        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+                        view_formats: &[],
+                    });
+                    let target = target.create_view(&Default::default());
+                    let method = style.lines.method;
+                    renderer
+                        .render(&prepared, &view, &target, format)
+                        .unwrap_or_else(|e| panic!("{method:?}, {supersample}, {format:?}: {e}"));
+                }
+                let layers = &LayerKind::ALL;
+                pollster::block_on(renderer.picture(&prepared, &view, layers, &mut |_, _| {}))
+                    .expect("layers can be read back");
+            }
+        }
+    }
+    assert_eq!(*faults.lock().expect("nothing panicked"), Vec::<String>::new());
+}
+
+#[test]
+fn the_benchmarks_baseline_is_valid_too() {
+    let (device, queue) = noop_device();
+    let renderer = Renderer::new(&device, &queue).expect("the renderer's own pipelines are valid");
+    let prepared =
+        renderer.prepare(&scene_of_all_kinds(), &Style::default()).expect("the scene is valid");
+    let view = perspective_view([48, 32], 40.0, 8.0);
+    for workload in [genga::render::Workload::Plain, genga::render::Workload::Styled] {
+        let times = pollster::block_on(renderer.time_frame(&prepared, &view, workload))
+            .expect("both workloads run");
+        assert_eq!(times.gpu_ms, None, "a device without timestamps measures none");
+    }
+}
