@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use genga::render::{Orbit, ViewCamera};
-use genga::scene::{Aabb, Pose, Scene};
+use genga::scene::{Pose, Scene};
 use genga::scene_file::{Picture, SceneCamera, SceneFile};
 use genga::style::Style;
+use glam::Vec3;
 
 use crate::args::OrbitArgs;
 use crate::console::Console;
@@ -168,14 +169,15 @@ impl Source {
         }
     }
 
-    /// The box around what is drawn, or a sentence if that is nothing.
-    pub(crate) fn drawn(&self, bounds: Option<Aabb>) -> Outcome<Aabb> {
-        bounds.ok_or_else(|| {
-            Failure::Message(format!(
+    /// The points that a camera is fitted to, or a sentence if nothing is drawn.
+    pub(crate) fn drawn(&self, points: Vec<Vec3>) -> Outcome<Vec<Vec3>> {
+        if points.is_empty() {
+            return Err(Failure::Message(format!(
                 "{}: there is nothing to draw: it has no triangles",
                 self.name
-            ))
-        })
+            )));
+        }
+        Ok(points)
     }
 
     /// The camera of the model with that name or number.
@@ -204,7 +206,7 @@ impl Source {
         &self,
         options: &OrbitArgs,
         pose: &Pose,
-        bounds: &Aabb,
+        points: &[Vec3],
         aspect: f32,
     ) -> ViewCamera {
         match self.camera {
@@ -215,10 +217,14 @@ impl Source {
             },
             Some(SceneCamera::Node(node)) if !options.any() => {
                 ViewCamera::from_node(&self.scene, pose, node)
-                    .unwrap_or_else(|| ViewCamera::orbit(bounds, &self.orbit(options), aspect))
+                    .unwrap_or_else(|| self.fitted(options, points, aspect))
             }
-            _ => ViewCamera::orbit(bounds, &self.orbit(options), aspect),
+            _ => self.fitted(options, points, aspect),
         }
+    }
+
+    fn fitted(&self, options: &OrbitArgs, points: &[Vec3], aspect: f32) -> ViewCamera {
+        ViewCamera::orbit_points(points, &self.orbit(options), aspect)
     }
 
     /// The orbit that the options ask for; the rest is the scene file's or the library's.

@@ -1,5 +1,6 @@
 use genga::render::ViewCamera;
-use genga::scene::{Aabb, Pose};
+use genga::scene::Pose;
+use glam::Vec3;
 
 use crate::args::{FrameRange, RenderArgs};
 use crate::console::{Console, Progress};
@@ -110,7 +111,7 @@ struct Shoot<'a> {
 impl Shoot<'_> {
     fn draw(&self, graphics: &Graphics, saver: &mut Saver, progress: &mut Progress<'_>) -> Outcome {
         let Self { args, source, style, console, .. } = self;
-        let bounds = self.bounds()?;
+        let points = self.points()?;
         let mut prepared = graphics.prepare(&source.scene, &style.style, console)?;
         let layers = args.picture.layer_kinds();
         let inputs = [&args.inputs[..], &source.files, style.file.as_slice()].concat();
@@ -122,7 +123,7 @@ impl Shoot<'_> {
             let pose = source.pose(self.moments.seconds(frame))?;
             let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
             graphics.check(&source.name, posed)?;
-            let view = view::view(&args.picture, source, self.camera(&pose, &bounds)?);
+            let view = view::view(&args.picture, source, self.camera(&pose, &points)?);
             let picture = pollster::block_on(graphics.renderer.picture(
                 &prepared,
                 &view,
@@ -135,26 +136,25 @@ impl Shoot<'_> {
         Ok(())
     }
 
-    fn camera(&self, pose: &Pose, bounds: &Aabb) -> Outcome<ViewCamera> {
+    fn camera(&self, pose: &Pose, points: &[Vec3]) -> Outcome<ViewCamera> {
         match &self.args.camera {
             Some(name) => self.source.named_camera(name, pose),
             None => {
                 let aspect = view::aspect(view::size(&self.args.picture, self.source));
-                Ok(self.source.camera(&self.args.picture.orbit, pose, bounds, aspect))
+                Ok(self.source.camera(&self.args.picture.orbit, pose, points, aspect))
             }
         }
     }
 
-    /// The box around the model in all frames, or in some of very many.
-    fn bounds(&self) -> Outcome<Aabb> {
+    /// The points that stick out in all frames, or in some of very many.
+    fn points(&self) -> Outcome<Vec<Vec3>> {
         let range = self.moments.range;
         let step = range.count().div_ceil(MEASURED_POSES).max(1);
-        let mut bounds: Option<Aabb> = None;
+        let mut points = Vec::new();
         for frame in range.frames().step_by(step) {
             let pose = self.source.pose(self.moments.seconds(frame))?;
-            let here = self.source.scene.bounds(&pose);
-            bounds = bounds.into_iter().chain(here).reduce(Aabb::union);
+            points.extend(self.source.scene.extremes(&pose));
         }
-        self.source.drawn(bounds)
+        self.source.drawn(points)
     }
 }

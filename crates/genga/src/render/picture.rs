@@ -380,10 +380,10 @@ mod tests {
             let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
             for (drawn, kept) in tiles(size, limit, apron) {
                 assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron));
-                for axis in 0..2 {
+                for (axis, side) in size.into_iter().enumerate() {
                     let low = kept.origin[axis].saturating_sub(apron).max(drawn.origin[axis]);
                     assert_eq!(low, drawn.origin[axis]);
-                    assert!(drawn.origin[axis] + drawn.size[axis] <= size[axis]);
+                    assert!(drawn.origin[axis] + drawn.size[axis] <= side);
                 }
                 for y in 0..kept.size[1] {
                     for x in 0..kept.size[0] {

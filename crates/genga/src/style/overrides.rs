@@ -129,8 +129,6 @@ pub struct LineOverride {
     pub width: Option<f32>,
     /// User line id: where two meet there is a line of type `user`. 0 is the default.
     pub line_id: Option<u16>,
-    /// Colour of the ink instead of the line set's.
-    pub color: Option<Color>,
 }
 
 impl Default for VertexColorRange {

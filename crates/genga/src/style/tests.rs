@@ -77,7 +77,7 @@ fn every_key_is_read() {
         [[override]]
         select = { objects = ["a"], materials = ["b"], base_color = { hue = [350, 20] } }
         paint = { base = "none", shade_bias = 0.25, ramp = { smooth = true } }
-        lines = { visible = false, width = 2, line_id = 3, color = "#00f" }
+        lines = { visible = false, width = 2, line_id = 3 }
         [[override]]
         select = { vertex_color = { red = [0.5, 1] } }
         "##,
@@ -125,7 +125,7 @@ fn every_key_is_read() {
     assert_eq!((first.paint.base, first.paint.shade_bias), (Some(BaseColor::None), Some(0.25)));
     assert!(first.paint.ramp.as_ref().is_some_and(|ramp| ramp.smooth));
     assert_eq!((first.lines.visible, first.lines.width), (Some(false), Some(2.0)));
-    assert_eq!((first.lines.line_id, first.lines.color.map(|c| c.b)), (Some(3), Some(1.0)));
+    assert_eq!(first.lines.line_id, Some(3));
     let range = second.select.vertex_color.expect("it is given");
     assert_eq!((range.red, range.alpha), ([0.5, 1.0], [0.0, 1.0]));
     assert!(first.select.is_per_pixel() && second.select.is_per_pixel());
