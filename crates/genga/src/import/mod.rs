@@ -144,3 +144,61 @@ fn warn_of_missing_uvs(scene: &Scene, warnings: &mut Warnings) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GLTF: &str = r#"{
+        "asset": { "version": "2.0" },
+        "buffers": [{ "byteLength": 36, "uri": "parts/the%20data.bin" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+        "nodes": [{ "mesh": 0 }]
+    }"#;
+
+    #[test]
+    fn a_model_with_its_files_is_loaded_from_a_folder() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("Figure.GLTF");
+        std::fs::write(&path, GLTF).unwrap();
+        let error = load(&path).unwrap_err().to_string();
+        assert!(error.contains("Figure.GLTF: buffer 0: the file 'parts/the data.bin'"), "{error}");
+
+        std::fs::create_dir(folder.path().join("parts")).unwrap();
+        let positions: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect();
+        std::fs::write(folder.path().join("parts/the data.bin"), positions).unwrap();
+        let imported = load(&path).unwrap();
+        assert_eq!(imported.scene.name, "Figure");
+        assert_eq!(imported.scene.triangle_count(), 1);
+        assert_eq!(imported.warnings, [""; 0]);
+    }
+
+    #[test]
+    fn missing_files_and_folders_are_errors() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(load(folder.path()).unwrap_err().to_string().contains("cannot be read"));
+        let missing = load(&folder.path().join("gone.glb")).unwrap_err();
+        assert!(missing.to_string().contains("gone.glb: the file cannot be read"), "{missing}");
+    }
+
+    #[test]
+    fn the_format_follows_the_ending_then_the_content() {
+        assert_eq!(Format::from_name("a.b/C.GLB"), Some(Format::Gltf));
+        assert_eq!(Format::from_name("a.obj"), Some(Format::Obj));
+        assert_eq!(Format::from_name("a.fbx"), None);
+        assert_eq!(Format::from_content(b"glTF\x02\0\0\0"), Some(Format::Gltf));
+        assert_eq!(Format::from_content(b"\xef\xbb\xbf \n{"), Some(Format::Gltf));
+        assert_eq!(Format::from_content(b"# by hand\nv 0 0 0\n"), Some(Format::Obj));
+        assert_eq!(Format::from_content(b"Kaydara FBX Binary"), None);
+        let error = from_bytes("empty", b"", None, &no_files).unwrap_err();
+        assert!(matches!(error.problem, Problem::UnknownFormat), "{error}");
+        // Text in a file that is called binary is read all the same.
+        let json = br#"{ "asset": { "version": "2.0" } }"#;
+        assert!(from_bytes("a.glb", json, None, &no_files).is_ok());
+    }
+}

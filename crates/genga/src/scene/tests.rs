@@ -239,8 +239,8 @@ fn validation_names_what_is_wrong() {
         change(&mut scene);
         scene.validate().unwrap_err().to_string()
     };
-    type Change<'a> = &'a dyn Fn(&mut Scene);
-    let cases: [(Change<'_>, &str); 16] = [
+    type Case<'a> = (&'a dyn Fn(&mut Scene), &'a str);
+    let cases: [Case; 16] = [
         (&|s| s.nodes[2].mesh = Some(1), "node 2 'body' refers to mesh 1, but there are only 1"),
         (&|s| s.nodes[2].skin = Some(1), "skin 1"),
         (&|s| s.nodes[2].camera = Some(0), "camera 0"),
