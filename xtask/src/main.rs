@@ -1,7 +1,15 @@
 //! The project's own tasks, run as `cargo xtask TASK`.
 
+mod adapter;
+mod check;
 mod error;
+mod fuzz;
+mod gallery;
 mod models;
+mod process;
+#[cfg(feature = "shaders")]
+mod shaders;
+mod snapshots;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -20,6 +28,34 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
+    /// Draw every preset on every model, into out/gallery; installs a software driver if needed
+    Demo,
+    /// Run every check and test; installs a software driver if needed
+    Test,
+    /// Draw the small pictures of assets/gallery again
+    Gallery,
+    /// List test pictures that differ from the expected ones
+    Snapshots {
+        /// Take them over as the expected ones
+        #[arg(long)]
+        update: bool,
+    },
+    /// Run the long proofs
+    Verify,
+    /// Run the fuzz targets
+    Fuzz {
+        /// Only this one
+        target: Option<String>,
+        /// Seconds for each target
+        #[arg(long, default_value_t = 60)]
+        seconds: u32,
+    },
+    /// Link the shaders and generate the Rust twins of their structs
+    Shaders {
+        /// Only check that the committed files are what the shaders give
+        #[arg(long)]
+        check: bool,
+    },
     /// Write the project's own models to assets/models
     Models {
         /// Only check that the committed files are what the code makes
@@ -47,12 +83,35 @@ fn main() -> ExitCode {
 fn run(task: Task) -> Result<()> {
     let root = &root();
     match task {
+        Task::Demo => gallery::demo(root),
+        Task::Test => check::test(root),
+        Task::Gallery => gallery::gallery(root),
+        Task::Snapshots { update } => snapshots::snapshots(root, update),
+        Task::Verify => {
+            let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];
+            process::run(process::cargo(root).args(arguments))
+        }
+        Task::Fuzz { target, seconds } => fuzz::fuzz(root, target.as_deref(), seconds),
+        Task::Shaders { check } => shaders(root, check),
         Task::Models { bench_mesh: Some(triangles), output: Some(file), .. } => {
             models::write_bench_mesh(triangles, &file)
         }
         Task::Models { check: true, .. } => models::check(root),
         Task::Models { .. } => models::write(root),
     }
+}
+
+#[cfg(feature = "shaders")]
+fn shaders(root: &Path, check: bool) -> Result<()> {
+    shaders::run(root, check).map_err(Error::new)
+}
+
+/// The shader tools are slow to build, so only this task builds them.
+#[cfg(not(feature = "shaders"))]
+fn shaders(root: &Path, check: bool) -> Result<()> {
+    let mut cargo = process::cargo(root);
+    cargo.args(["run", "--package", "xtask", "--features", "shaders", "--", "shaders"]);
+    process::run(cargo.args(check.then_some("--check")))
 }
 
 /// The repository's root.

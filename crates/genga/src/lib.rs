@@ -3,6 +3,8 @@
 //! Data flows one way: [`import`] → [`scene`] → [`render`], guided by a [`style`]. The library
 //! opens no window, keeps no global state and makes no device behind your back.
 
+#[cfg(feature = "export")]
+pub mod export;
 #[cfg(feature = "import")]
 pub mod import;
 pub mod render;

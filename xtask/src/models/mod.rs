@@ -20,7 +20,7 @@ pub(crate) const FOLDER: &str = "assets/models";
 /// A file's name and how it is made.
 type Recipe = (&'static str, fn() -> glb::Model);
 
-/// Every committed model.
+/// Every committed model. Each has a camera called `camera`, from which the gallery draws it.
 const MODELS: [Recipe; 3] = [
     ("cube-before-plane.glb", scenes::cube_before_plane),
     ("spheres-near-far.glb", scenes::spheres_near_far),

@@ -83,7 +83,12 @@ pub(super) fn read_relative(
         Err(_) if path.contains('\\') => files(&path.replace('\\', "/")),
         result => result,
     }
-    .map_err(|error| format!("the file {} cannot be read ({error})", quoted(path)))
+    .map_err(|error| {
+        format!(
+            "the file {}, which belongs beside the model, cannot be read ({error})",
+            quoted(path)
+        )
+    })
 }
 
 /// Decodes what follows `data:`.

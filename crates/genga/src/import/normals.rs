@@ -1,4 +1,7 @@
 //! Smooth normals for meshes that bring none.
+//!
+//! glTF asks for flat ones then; on the figures that people draw, one shaded band per face is
+//! never what was meant.
 
 use glam::{DVec3, Vec3};
 

@@ -23,7 +23,9 @@ pub enum RenderError {
         reason: String,
     },
     /// The graphics memory is full.
-    #[error("the graphics memory is full: draw a smaller picture, a lower supersampling or a smaller model")]
+    #[error(
+        "the graphics memory is full: draw a smaller picture, a lower supersampling or a smaller model"
+    )]
     OutOfMemory,
     /// The device is gone.
     #[error("the graphics device was lost ({message}): try again, or choose another adapter")]

@@ -97,7 +97,11 @@ pub(crate) fn frame_values(
         line_sets,
         detect: Detect {
             depth: detect.depth,
-            crease_cos: if detect.crease_deg > 0.0 { detect.crease_deg.to_radians().cos() } else { -2.0 },
+            crease_cos: if detect.crease_deg > 0.0 {
+                detect.crease_deg.to_radians().cos()
+            } else {
+                -2.0
+            },
             identities: identity(detect.objects, gpu::LINE_OBJECT)
                 | identity(detect.materials, gpu::LINE_MATERIAL)
                 | identity(detect.user, gpu::LINE_USER),

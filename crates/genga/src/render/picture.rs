@@ -138,7 +138,8 @@ impl Renderer {
             rgba: vec![0; 4 * pixels],
             layers: layers.iter().map(|&kind| empty_layer(kind, pixels)).collect(),
         };
-        let limit = self.device.limits().max_texture_dimension_2d.min(max_texels) / view.supersample;
+        let limit =
+            self.device.limits().max_texture_dimension_2d.min(max_texels) / view.supersample;
         let tiles = tiles(view.size, limit.max(64), apron(prepared, view));
         let total = tiles.len() as u32;
         progress(0, total);
@@ -210,8 +211,14 @@ impl Renderer {
                 let output = (&shown.view, shown.texture.format());
                 self.composite(&mut encoder, prepared, &targets, output, &mut Timer::off());
                 let all = wgpu::TextureAspect::All;
-                let read =
-                    TextureRead::record(device, &mut encoder, &shown.texture, all, offset, kept.size);
+                let read = TextureRead::record(
+                    device,
+                    &mut encoder,
+                    &shown.texture,
+                    all,
+                    offset,
+                    kept.size,
+                );
                 self.queue.submit([encoder.finish()]);
                 Ok(read)
             })?;
@@ -247,8 +254,14 @@ impl GBufferSource<'_> {
             let mut encoder = self.renderer.encoder("layer");
             let (offset, size) = (self.offset, self.kept.size);
             let scaled = |n: [u32; 2]| n.map(|n| n * self.scale);
-            let read =
-                TextureRead::record(device, &mut encoder, texture, aspect, scaled(offset), scaled(size));
+            let read = TextureRead::record(
+                device,
+                &mut encoder,
+                texture,
+                aspect,
+                scaled(offset),
+                scaled(size),
+            );
             self.renderer.queue.submit([encoder.finish()]);
             Ok(read)
         })?;
@@ -374,7 +387,8 @@ mod tests {
                 }
                 for y in 0..kept.size[1] {
                     for x in 0..kept.size[0] {
-                        covered[((kept.origin[1] + y) * size[0] + kept.origin[0] + x) as usize] += 1;
+                        covered[((kept.origin[1] + y) * size[0] + kept.origin[0] + x) as usize] +=
+                            1;
                     }
                 }
             }

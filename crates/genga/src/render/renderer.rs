@@ -166,7 +166,14 @@ impl Renderer {
             let mut timer = Timer::off();
             let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
             let output = (target, format);
-            self.composite.run(&self.device, &mut encoder, &prepared.frame, &targets, output, &mut timer);
+            self.composite.run(
+                &self.device,
+                &mut encoder,
+                &prepared.frame,
+                &targets,
+                output,
+                &mut timer,
+            );
             self.queue.submit([encoder.finish()]);
             Ok(())
         })
@@ -221,8 +228,7 @@ impl Renderer {
         let world_from_camera = &view.camera.world_from_camera;
         let lights: Vec<Light> =
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
-        let frame =
-            frame_values(prepared, view, projected, tile, output, lights.len() as u32);
+        let frame = frame_values(prepared, view, projected, tile, output, lights.len() as u32);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
     }
@@ -252,8 +258,13 @@ impl Renderer {
         let limit = self.device.limits().max_texture_dimension_2d / view.supersample.clamp(1, 4);
         check_view(view, limit)?;
         let device = &self.device;
-        let output =
-            Output { background: view.background, paint: true, lines: true, linear: false, straight: false };
+        let output = Output {
+            background: view.background,
+            paint: true,
+            lines: true,
+            linear: false,
+            straight: false,
+        };
         let tile = Tile { origin: [0, 0], size: view.size };
         let mut timer = Timer::new(device);
         let mut encoder = self.encoder("timed frame");
@@ -265,7 +276,13 @@ impl Renderer {
                         self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
                     let shown = super::picture::color_target(device, view.size);
                     let format = shown.texture.format();
-                    self.composite(&mut encoder, prepared, &targets, (&shown.view, format), &mut timer);
+                    self.composite(
+                        &mut encoder,
+                        prepared,
+                        &targets,
+                        (&shown.view, format),
+                        &mut timer,
+                    );
                 }
                 Workload::Plain => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);
@@ -343,7 +360,8 @@ pub(crate) fn check_view(view: &View, limit: u32) -> Result<(), RenderError> {
         crate::scene::Projection::Perspective { fov_y } => fov_y > 0.0 && fov_y < 3.2,
         crate::scene::Projection::Orthographic { height } => height > 0.0 && height.is_finite(),
     };
-    if !size_ok || !camera.world_from_camera.is_finite() || !(camera.near > 0.0 && camera.near.is_finite()) {
+    let near_ok = camera.near > 0.0 && camera.near.is_finite();
+    if !(size_ok && near_ok && camera.world_from_camera.is_finite()) {
         let reason = "the camera's place, angle or near distance is not a usable number".to_owned();
         return Err(RenderError::View { reason });
     }

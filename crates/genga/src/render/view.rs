@@ -30,7 +30,13 @@ pub struct Orbit {
 
 impl Default for Orbit {
     fn default() -> Self {
-        Self { azimuth_deg: 30.0, elevation_deg: 15.0, zoom: 1.0, fov_deg: 30.0, orthographic: false }
+        Self {
+            azimuth_deg: 30.0,
+            elevation_deg: 15.0,
+            zoom: 1.0,
+            fov_deg: 30.0,
+            orthographic: false,
+        }
     }
 }
 
@@ -43,42 +49,22 @@ impl ViewCamera {
     /// Numbers out of range are clamped.
     #[must_use]
     pub fn orbit(bounds: &Aabb, orbit: &Orbit, aspect: f32) -> Self {
-        let aspect = if aspect.is_finite() { aspect.clamp(1e-3, 1e3) } else { 1.0 };
-        let zoom = if orbit.zoom.is_finite() { orbit.zoom.clamp(1e-3, 1e4) } else { 1.0 };
-        let (sin_a, cos_a) = orbit.azimuth_deg.to_radians().sin_cos();
-        let (sin_e, cos_e) = orbit.elevation_deg.clamp(-90.0, 90.0).to_radians().sin_cos();
-        let back = Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e);
-        let right = Vec3::new(cos_a, 0.0, -sin_a);
-        let up = back.cross(right);
-        let center = 0.5 * (bounds.min + bounds.max);
-        let half = (0.5 * (bounds.max - bounds.min)).max(Vec3::splat(1e-6));
-        let corners = (0..8).map(|i| {
-            let sign = |bit: i32| if i & bit == 0 { -1.0 } else { 1.0 };
-            let corner = half * Vec3::new(sign(1), sign(2), sign(4));
-            Vec3::new(corner.dot(right), corner.dot(up), corner.dot(back))
-        });
-        let tan_y = (0.5 * orbit.fov_deg.clamp(0.1, 170.0)).to_radians().tan();
-        let fit = 1.0 - 2.0 * MARGIN;
-        let (mut distance, mut height, mut front) = (0.0_f32, 0.0_f32, 0.0_f32);
-        for corner in corners {
-            let needed = (corner.x.abs() / aspect).max(corner.y.abs()) / fit;
-            distance = distance.max(needed / tan_y + corner.z);
-            height = height.max(2.0 * needed);
-            front = front.max(corner.z);
-        }
-        let (projection, distance) = if orbit.orthographic {
-            (Projection::Orthographic { height: height / zoom }, 3.0 * half.length())
-        } else {
-            (Projection::Perspective { fov_y: 2.0 * (tan_y / zoom).atan() }, distance)
-        };
-        let near = (0.5 * (distance - front)).max(1e-3 * distance);
-        let world_from_camera = Affine3A::from_cols(
-            right.into(),
-            up.into(),
-            back.into(),
-            (center + distance * back).into(),
-        );
-        Self { world_from_camera, projection, near }
+        Self::orbit_points(&corners(bounds), orbit, aspect)
+    }
+
+    /// A camera that shows all `points` (see [`Scene::extremes`]), as large as they fit and in the
+    /// middle of the picture.
+    #[must_use]
+    pub fn orbit_points(points: &[Vec3], orbit: &Orbit, aspect: f32) -> Self {
+        Fit::new(points, orbit, aspect).camera(orbit, &[orbit.azimuth_deg], true)
+    }
+
+    /// As [`Self::orbit_points`], but at the same distance and height from every azimuth, so that
+    /// a turning object neither jumps nor pulsates.
+    #[must_use]
+    pub fn turntable(points: &[Vec3], orbit: &Orbit, aspect: f32) -> Self {
+        let azimuths: [f32; 72] = std::array::from_fn(|i| 5.0 * i as f32);
+        Fit::new(points, orbit, aspect).camera(orbit, &azimuths, false)
     }
 
     /// The camera of a node of the file; `None` if that node has none.
@@ -94,6 +80,121 @@ impl ViewCamera {
             near: camera.near.max(1e-6),
         })
     }
+}
+
+/// The eight corners of a box.
+fn corners(bounds: &Aabb) -> [Vec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f32, high: f32| if i & bit == 0 { low } else { high };
+        Vec3::new(
+            pick(1, bounds.min.x, bounds.max.x),
+            pick(2, bounds.min.y, bounds.max.y),
+            pick(4, bounds.min.z, bounds.max.z),
+        )
+    })
+}
+
+/// Fits a camera round points.
+struct Fit<'a> {
+    points: &'a [Vec3],
+    center: Vec3,
+    radius: f32,
+    zoom: f32,
+    /// Tangents of half the angles of view, less the margin.
+    tangents: Vec2,
+    aspect: f32,
+}
+
+impl<'a> Fit<'a> {
+    fn new(points: &'a [Vec3], orbit: &Orbit, aspect: f32) -> Self {
+        let aspect = if aspect.is_finite() { aspect.clamp(1e-3, 1e3) } else { 1.0 };
+        let zoom = if orbit.zoom.is_finite() { orbit.zoom.clamp(1e-3, 1e4) } else { 1.0 };
+        let low = points.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+        let high = points.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+        let is_empty = points.is_empty();
+        let center = if is_empty { Vec3::ZERO } else { 0.5 * low + 0.5 * high };
+        let radius = if is_empty { 1.0 } else { (0.5 * high - 0.5 * low).length().max(1e-6) };
+        let tan_y = (0.5 * orbit.fov_deg.clamp(0.1, 170.0)).to_radians().tan();
+        let tangents = Vec2::new(tan_y * aspect, tan_y) * (1.0 - 2.0 * MARGIN);
+        Self { points, center, radius, zoom, tangents, aspect }
+    }
+
+    /// The camera of `orbit` that sees every point from each of the `azimuths`.
+    ///
+    /// A point (x, y, z) in the camera's axes is seen if `|x − c| ≤ (d − z) tan`, so the two
+    /// extremes of `z ± x/tan` give the least distance d and the offset c that centres it.
+    fn camera(&self, orbit: &Orbit, azimuths: &[f32], centered: bool) -> ViewCamera {
+        let mut extremes = [[f32::NEG_INFINITY; 2]; 2];
+        let mut sides = [[f32::NEG_INFINITY; 2]; 2];
+        let mut front = f32::NEG_INFINITY;
+        for &azimuth in azimuths {
+            let axes = axes(azimuth, orbit.elevation_deg);
+            for &point in self.points {
+                let p = point - self.center;
+                let at = [p.dot(axes[0]), p.dot(axes[1])];
+                let z = p.dot(axes[2]);
+                front = front.max(z);
+                for axis in 0..2 {
+                    for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+                        let needed = z + sign * at[axis] / self.tangents[axis];
+                        extremes[axis][side] = extremes[axis][side].max(needed);
+                        sides[axis][side] = sides[axis][side].max(sign * at[axis]);
+                    }
+                }
+            }
+        }
+        let [right, up, back] = axes(orbit.azimuth_deg, orbit.elevation_deg);
+        let finite = |x: f32| if x.is_finite() { x } else { 0.0 };
+        let (mut offset, mut distance, mut height) = (Vec3::ZERO, 0.0_f32, 0.0_f32);
+        let fit = 1.0 - 2.0 * MARGIN;
+        for (axis, direction) in [right, up].into_iter().enumerate() {
+            let measured = if orbit.orthographic { sides[axis] } else { extremes[axis] };
+            let [plus, minus] = measured.map(finite);
+            // The turntable's axis stays in the middle of the picture.
+            let is_free = centered || axis == 1;
+            let shift = if is_free { 0.5 * (plus - minus) } else { 0.0 };
+            let reach = (plus - shift).max(minus + shift);
+            if orbit.orthographic {
+                let reach = if axis == 0 { reach / self.aspect } else { reach };
+                height = height.max(2.0 * reach / fit);
+                offset += shift * direction;
+            } else {
+                distance = distance.max(reach);
+                offset += shift * self.tangents[axis] * direction;
+            }
+        }
+        let front = finite(front);
+        let tan_y = self.tangents.y / fit;
+        let (projection, distance) = if orbit.orthographic {
+            let height = (height / self.zoom).max(1e-6);
+            (Projection::Orthographic { height }, front + 2.0 * self.radius)
+        } else {
+            let distance = distance.max(front + 1e-3 * self.radius);
+            (Projection::Perspective { fov_y: 2.0 * (tan_y / self.zoom).atan() }, distance)
+        };
+        let near = (0.5 * (distance - front)).max(1e-3 * distance).max(1e-9);
+        let eye = self.center + offset + distance * back;
+        ViewCamera {
+            world_from_camera: Affine3A::from_cols(
+                right.into(),
+                up.into(),
+                back.into(),
+                eye.into(),
+            ),
+            projection,
+            near,
+        }
+    }
+}
+
+/// Right, up and back of a camera at these angles.
+fn axes(azimuth_deg: f32, elevation_deg: f32) -> [Vec3; 3] {
+    let finite = |x: f32| if x.is_finite() { x } else { 0.0 };
+    let (sin_a, cos_a) = finite(azimuth_deg).to_radians().sin_cos();
+    let (sin_e, cos_e) = finite(elevation_deg).clamp(-90.0, 90.0).to_radians().sin_cos();
+    let back = Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e);
+    let right = Vec3::new(cos_a, 0.0, -sin_a);
+    [right, back.cross(right), back]
 }
 
 /// A picture to draw.
@@ -157,18 +258,9 @@ impl Projected {
             }
             Projection::Orthographic { height: metres } => {
                 let metres = metres.max(1e-9);
+                let distance = |p| -camera_from_world.transform_point3(p).z;
                 let farthest = bounds.map_or(100.0, |bounds| {
-                    (0..8)
-                        .map(|i| {
-                            let pick = |bit: i32, low: f32, high: f32| if i & bit == 0 { low } else { high };
-                            let corner = Vec3::new(
-                                pick(1, bounds.min.x, bounds.max.x),
-                                pick(2, bounds.min.y, bounds.max.y),
-                                pick(4, bounds.min.z, bounds.max.z),
-                            );
-                            -camera_from_world.transform_point3(corner).z
-                        })
-                        .fold(f32::MIN, f32::max)
+                    corners(&bounds).map(distance).into_iter().fold(f32::MIN, f32::max)
                 });
                 let far = (farthest * 1.01 + 1e-3 * metres).max(near + 1e-3 * metres);
                 let (x, y) = (2.0 * height / (metres * width), 2.0 / metres);
@@ -190,5 +282,72 @@ impl Projected {
                 }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a lopsided thing.
+    fn points() -> Vec<Vec3> {
+        (0..200)
+            .map(|i| {
+                let t = i as f32 * 0.37;
+                Vec3::new(3.0 * t.sin() + 5.0, 2.0 * (1.7 * t).cos().abs(), 4.0 * (0.3 * t).cos())
+            })
+            .collect()
+    }
+
+    fn ndc(camera: &ViewCamera, aspect: f32, point: Vec3) -> Vec3 {
+        let size = [(1000.0 * aspect) as u32, 1000];
+        let bounds = Some(Aabb { min: Vec3::splat(-9.0), max: Vec3::splat(9.0) });
+        Projected::new(camera, size, bounds).clip_from_world.project_point3(point)
+    }
+
+    #[test]
+    fn a_fitted_camera_fills_the_picture_up_to_its_margin_and_centres_it() {
+        for orthographic in [false, true] {
+            for (azimuth, elevation, aspect) in
+                [(0.0, 0.0, 1.0), (35.0, 20.0, 1.6), (200.0, -50.0, 0.5)]
+            {
+                let orbit = Orbit {
+                    azimuth_deg: azimuth,
+                    elevation_deg: elevation,
+                    orthographic,
+                    ..Orbit::default()
+                };
+                let camera = ViewCamera::orbit_points(&points(), &orbit, aspect);
+                let seen: Vec<Vec3> = points().iter().map(|&p| ndc(&camera, aspect, p)).collect();
+                let low = seen.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+                let high = seen.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+                let most = high.x.max(high.y);
+                assert!((most - 0.88).abs() < 0.01, "{orbit:?}: {low} {high}");
+                assert!((low.x + high.x).abs() < 0.02 || orthographic || most > high.x + 0.01);
+                assert!(low.z > 0.0 && high.z <= 1.0, "{low} {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_turntable_keeps_its_distance_and_loses_no_point() {
+        let mut distances = Vec::new();
+        let center = {
+            let (low, high) = points()
+                .iter()
+                .fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+            0.5 * (low + high)
+        };
+        for i in 0..12 {
+            let orbit = Orbit { azimuth_deg: 30.0 * i as f32, ..Orbit::default() };
+            let camera = ViewCamera::turntable(&points(), &orbit, 1.3);
+            distances.push(Vec3::from(camera.world_from_camera.translation).distance(center));
+            for p in points() {
+                let at = ndc(&camera, 1.3, p);
+                assert!(at.x.abs() < 0.9 && at.y.abs() < 0.9, "{i}: {at}");
+            }
+        }
+        let spread = distances.iter().fold(0.0_f32, |m, d| m.max((d - distances[0]).abs()));
+        assert!(spread < 1e-4, "{distances:?}");
     }
 }

@@ -52,6 +52,38 @@ impl Scene {
     #[must_use]
     pub fn bounds(&self, pose: &Pose) -> Option<Aabb> {
         let mut bounds = Bounds::default();
+        self.visit_points(pose, &mut |point| bounds.add(point));
+        bounds.finish()
+    }
+
+    /// Points at a pose that stick out farthest in 64 directions: enough to fit a camera closely,
+    /// however large the scene is. Empty if nothing is drawn.
+    ///
+    /// It visits every vertex on the CPU.
+    #[must_use]
+    pub fn extremes(&self, pose: &Pose) -> Vec<Vec3> {
+        // A Fibonacci lattice covers the sphere evenly.
+        let directions: [Vec3A; 64] = std::array::from_fn(|i| {
+            let z = 1.0 - (2.0 * i as f32 + 1.0) / 64.0;
+            let (sin, cos) = (i as f32 * 2.399_963_2).sin_cos();
+            Vec3A::new(cos * (1.0 - z * z).sqrt(), z, sin * (1.0 - z * z).sqrt())
+        });
+        let mut farthest = [(f32::NEG_INFINITY, Vec3A::ZERO); 64];
+        self.visit_points(pose, &mut |point| {
+            if point.is_finite() {
+                for (slot, direction) in farthest.iter_mut().zip(&directions) {
+                    let distance = point.dot(*direction);
+                    if distance > slot.0 {
+                        *slot = (distance, point);
+                    }
+                }
+            }
+        });
+        farthest.iter().filter(|(d, _)| *d > f32::NEG_INFINITY).map(|(_, p)| (*p).into()).collect()
+    }
+
+    /// Calls `visit` with the place of every vertex that is drawn.
+    fn visit_points(&self, pose: &Pose, visit: &mut dyn FnMut(Vec3A)) {
         for (index, node) in self.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh.and_then(|mesh| self.meshes.get(mesh)) else { continue };
             if !pose.visible.get(index).copied().unwrap_or(false) {
@@ -60,9 +92,8 @@ impl Scene {
             let world_from_node = pose.world_from_node.get(index).copied().unwrap_or_default();
             let morph_weights = pose.morph_weights.get(index).map_or(&[][..], Vec::as_slice);
             let world_from_rest = pose.world_from_rest(self, index).unwrap_or_default();
-            bounds.add_mesh(mesh, &world_from_node, &world_from_rest, morph_weights);
+            visit_mesh(mesh, &world_from_node, &world_from_rest, morph_weights, visit);
         }
-        bounds.finish()
     }
 }
 
@@ -89,42 +120,42 @@ impl Bounds {
     fn finish(&self) -> Option<Aabb> {
         self.min.cmple(self.max).all().then(|| Aabb { min: self.min.into(), max: self.max.into() })
     }
+}
 
-    fn add_mesh(
-        &mut self,
-        mesh: &Mesh,
-        world_from_node: &Affine3A,
-        world_from_rest: &[Affine3A],
-        morph_weights: &[f32],
-    ) {
-        for primitive in mesh.primitives.iter().filter(|p| !p.indices.is_empty()) {
-            let morphed;
-            let positions = if morph_weights.iter().any(|&weight| weight != 0.0) {
-                morphed = morphed_positions(primitive, morph_weights);
-                &morphed
-            } else {
-                &primitive.positions
-            };
-            if world_from_rest.is_empty() || primitive.joints.is_empty() {
-                for &position in positions {
-                    self.add(world_from_node.transform_point3a(position.into()));
-                }
-                continue;
+fn visit_mesh(
+    mesh: &Mesh,
+    world_from_node: &Affine3A,
+    world_from_rest: &[Affine3A],
+    morph_weights: &[f32],
+    visit: &mut dyn FnMut(Vec3A),
+) {
+    for primitive in mesh.primitives.iter().filter(|p| !p.indices.is_empty()) {
+        let morphed;
+        let positions = if morph_weights.iter().any(|&weight| weight != 0.0) {
+            morphed = morphed_positions(primitive, morph_weights);
+            &morphed
+        } else {
+            &primitive.positions
+        };
+        if world_from_rest.is_empty() || primitive.joints.is_empty() {
+            for &position in positions {
+                visit(world_from_node.transform_point3a(position.into()));
             }
-            for (&position, (joints, weights)) in
-                positions.iter().zip(primitive.joints.iter().zip(&primitive.weights))
-            {
-                let position = Vec3A::from(position);
-                let mut point = Vec3A::ZERO;
-                for (&joint, &weight) in joints.iter().zip(weights) {
-                    if weight > 0.0
-                        && let Some(matrix) = world_from_rest.get(usize::from(joint))
-                    {
-                        point += matrix.transform_point3a(position) * weight;
-                    }
+            continue;
+        }
+        for (&position, (joints, weights)) in
+            positions.iter().zip(primitive.joints.iter().zip(&primitive.weights))
+        {
+            let position = Vec3A::from(position);
+            let mut point = Vec3A::ZERO;
+            for (&joint, &weight) in joints.iter().zip(weights) {
+                if weight > 0.0
+                    && let Some(matrix) = world_from_rest.get(usize::from(joint))
+                {
+                    point += matrix.transform_point3a(position) * weight;
                 }
-                self.add(point);
             }
+            visit(point);
         }
     }
 }

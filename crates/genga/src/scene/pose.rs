@@ -1,4 +1,4 @@
-use glam::{Affine3A, Mat3A, Quat, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 
 use super::{Channel, ChannelTarget, Interpolation, Scene, Transform};
 
@@ -119,19 +119,6 @@ impl Pose {
                 .collect(),
         )
     }
-}
-
-/// The matrix that normals need under `matrix`: its cofactor matrix, which also works where the
-/// inverse does not exist and keeps normals pointing outwards under reflections.
-#[must_use]
-pub(crate) fn normal_matrix(matrix: &Affine3A) -> Mat3A {
-    let m = matrix.matrix3;
-    let cofactor = Mat3A::from_cols(
-        m.y_axis.cross(m.z_axis),
-        m.z_axis.cross(m.x_axis),
-        m.x_axis.cross(m.y_axis),
-    );
-    if m.determinant() < 0.0 { cofactor * -1.0 } else { cofactor }
 }
 
 /// The value of a channel at `time`, or `None` if it has no usable keys.

@@ -232,27 +232,6 @@ fn what_is_not_drawn_has_no_bounds() {
 }
 
 #[test]
-fn normals_stay_perpendicular_under_any_matrix() {
-    let along = Vec3A::new(1.0, 2.0, -0.5);
-    let across = Vec3A::new(0.25, 1.0, 3.0);
-    let normal = along.cross(across);
-    for matrix in [
-        Affine3A::from_scale(Vec3::new(1.0, 5.0, 0.2)),
-        Affine3A::from_rotation_x(1.0) * Affine3A::from_scale(Vec3::new(2.0, 1.0, 1.0)),
-        Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0)),
-        Affine3A::from_scale(Vec3::new(1.0, 0.0, 1.0)),
-    ] {
-        let moved = pose::normal_matrix(&matrix) * normal;
-        let [a, b] = [along, across].map(|v| matrix.transform_vector3a(v));
-        assert!(moved.dot(a).abs() < 1e-4 && moved.dot(b).abs() < 1e-4);
-    }
-    // A mirrored outside stays outside.
-    let mirrored = pose::normal_matrix(&Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0)));
-    assert_eq!(mirrored * Vec3A::X, Vec3A::NEG_X);
-    assert_eq!(mirrored * Vec3A::Y, Vec3A::Y);
-}
-
-#[test]
 fn validation_names_what_is_wrong() {
     let message = |change: &dyn Fn(&mut Scene)| {
         let mut scene = skinned();

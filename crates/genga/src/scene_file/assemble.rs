@@ -21,7 +21,8 @@ pub struct Assembled {
 }
 
 impl SceneFile {
-    /// Opens the models with `load` (each file once) and puts everything together.
+    /// Opens the models with `load` (each file once) and puts everything together. The errors of
+    /// `load` should name the file.
     ///
     /// # Errors
     /// A model cannot be loaded or is not valid, or has no such clip or camera; shown at its
@@ -81,12 +82,10 @@ impl SceneFile {
         path: &Path,
         load: &mut impl FnMut(&Path) -> Result<Scene, E>,
     ) -> Result<Scene, FileError> {
-        let wrong = |e: &dyn Display| {
-            let shown = path.display();
-            self.error(&model.file, format!("the model '{shown}' cannot be used: {e}"))
-        };
-        let scene = load(path).map_err(|e| wrong(&e))?;
-        scene.validate().map_err(|e| wrong(&e))?;
+        // What `load` says names the file.
+        let wrong = |e: String| self.error(&model.file, format!("cannot use this model: {e}"));
+        let scene = load(path).map_err(|e| wrong(e.to_string()))?;
+        scene.validate().map_err(|e| wrong(format!("{}: {e}", path.display())))?;
         Ok(scene)
     }
 

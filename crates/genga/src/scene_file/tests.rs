@@ -429,13 +429,11 @@ fn what_is_not_in_the_models_is_shown_at_its_place() {
     }
     let file = read(text);
     let error = file.assemble(|_| Err("it is gone")).expect_err("it is wrong");
-    assert_eq!(error.to_string(), "3:8: the model 'x/a.glb' cannot be used: it is gone");
+    assert_eq!(error.to_string(), "3:8: cannot use this model: it is gone");
     let mut broken = model();
     broken.nodes[1].mesh = Some(9);
     let error = file.assemble(|_| Ok::<_, String>(broken.clone())).expect_err("it is wrong");
-    assert!(
-        error.to_string().starts_with("3:8: the model 'x/a.glb' cannot be used: node 1 'body'")
-    );
+    assert!(error.to_string().starts_with("3:8: cannot use this model: x/a.glb: node 1 'body'"));
 }
 
 #[test]

@@ -69,6 +69,7 @@ struct StyleFile {
     /// What differs for some objects, materials or colours. Later ones win, property by
     /// property.
     #[serde(default)]
+    #[schemars(length(max = 256))]
     r#override: Vec<Override>,
 }
 

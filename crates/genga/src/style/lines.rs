@@ -21,7 +21,7 @@ pub struct Lines {
     /// The rim method's own settings.
     pub rim: Rim,
     /// At most four sets, drawn in order: later ones lie on top. A line belongs to every set
-    /// that its type and object match. `hull` and `rim` use the first set's colour and width.
+    /// that its type and object match. `hull` and `rim` use the last set's colour and width.
     #[serde(deserialize_with = "sets")]
     #[schemars(length(max = 4))]
     pub sets: Vec<LineSet>,
@@ -108,7 +108,7 @@ impl Default for Detect {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hull {
-    /// Width in metres instead of the first line set's width in pixels.
+    /// Width in metres instead of the last line set's width in pixels.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub width_m: Option<f32>,
 }

@@ -26,6 +26,10 @@ const MAX_SIDE: u32 = 16_384;
 
 fn open(path: &Path) -> Result<Image, String> {
     let shown = path.display();
+    // Reading a pipe or a device might never end.
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(format!("must be a picture, but '{shown}' is not a file"));
+    }
     let mut reader = image::ImageReader::open(path)
         .and_then(image::ImageReader::with_guessed_format)
         .map_err(|e| format!("must be a picture, but '{shown}' cannot be read: {e}"))?;

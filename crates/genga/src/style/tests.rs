@@ -220,6 +220,10 @@ fn errors_name_the_place_and_the_remedy() {
             "3:17: 'visible' must be true or false, not 1",
         ),
         (
+            &format!("version = 1\n{}", "[[override]]\n".repeat(257)),
+            "2:1: 'override' must be a list of at most 256, each a table, not a list of 257",
+        ),
+        (
             "version = 1\nextends = \"american-comics\"",
             "2:11: unknown style 'american-comics', did you mean 'american-comic'?",
         ),
@@ -233,6 +237,21 @@ fn errors_name_the_place_and_the_remedy() {
         assert_eq!(error.line_text(), text.lines().nth(error.line - 1).unwrap_or(""));
         assert!(text.get(error.span.clone()).is_some());
         assert_eq!(error.path, None);
+    }
+}
+
+#[test]
+fn errors_may_say_what_to_do() {
+    for (text, expected) in [
+        ("", Some("write 'version = 1' in the first line")),
+        ("version = 2", Some("a newer Genga may know this version")),
+        ("version = '1'", None),
+        ("version = 1\nbackground = { colour = '#fff' }", Some("known here: 'color', 'bottom'")),
+        ("version = 1\nlines.method = 'countour'", Some("did you mean \"contour\"?")),
+        ("version = 1\n[override]\nselect = {}", Some("begin each with two brackets: '[[…]]'")),
+        ("version = 1\n[[override]]\nselect.objects = {}", None),
+    ] {
+        assert_eq!(error(text).help.as_deref(), expected, "{text}");
     }
 }
 

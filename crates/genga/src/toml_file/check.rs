@@ -41,7 +41,8 @@ pub(super) fn version(table: &DeTable<'_>) -> Result<(), Problem> {
         other => Err(Problem {
             span: version.span(),
             message: format!("'version' must be {VERSION}, not {}", found(other)),
-            help: Some("a newer Genga may know this version".to_owned()),
+            help: matches!(other, DeValue::Integer(_))
+                .then(|| "a newer Genga may know this version".to_owned()),
         }),
     }
 }
@@ -130,6 +131,12 @@ impl<'a> Checker<'a> {
                 }
                 let Some(items) = schema.get("items") else { return Ok(()) };
                 array.iter().try_for_each(|element| self.value(key, element, items))
+            }
+            (Some("array"), DeValue::Table(_)) => {
+                let items = schema.get("items").map(|items| self.resolve(items));
+                let of_tables = items.is_some_and(|i| i.get("properties").is_some());
+                let help = of_tables.then(|| "begin each with two brackets: '[[…]]'".to_owned());
+                Err(Problem { help, ..wrong() })
             }
             (Some("string"), DeValue::String(_)) | (Some("boolean"), DeValue::Boolean(_)) => Ok(()),
             (Some("integer"), DeValue::Integer(number)) => {

@@ -167,6 +167,11 @@ impl<'a> Accessor<'a> {
         Err(Problem::invalid(part, format!("its type {has:?} is not one of {shapes:?}")))
     }
 
+    /// The same accessor with whole numbers read as −1…1 or 0…1.
+    pub(super) fn normalized(self) -> Self {
+        Self { normalized: true, ..self }
+    }
+
     fn base(
         file: &'a GltfFile,
         item: &Item,

@@ -80,6 +80,8 @@ impl<'a> Attributes<'a, '_> {
         let Some(accessor) = self.accessor("COLOR_0", &[Shape::Vec3, Shape::Vec4])? else {
             return Ok(Vec::new());
         };
+        // Colours of whole numbers are always normalised, which some exporters forget to say.
+        let accessor = accessor.normalized();
         let mut colors: Vec<Vec4> = if accessor.shape == Shape::Vec3 {
             accessor.floats::<Vec3>().into_iter().map(|color| color.extend(1.0)).collect()
         } else {

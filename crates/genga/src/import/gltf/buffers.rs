@@ -1,35 +1,75 @@
 //! Buffers and views of them.
 
-use std::borrow::Cow;
+use std::collections::HashMap;
 use std::io;
+use std::rc::Rc;
 
 use super::super::{Problem, files};
-use super::document::{Buffer, Document};
+use super::document::Document;
+
+/// The bytes of one buffer.
+enum Data<'a> {
+    /// The GLB's own.
+    Binary(&'a [u8]),
+    /// Those of a URI, of which the buffer is the first `length` bytes.
+    Read { bytes: Rc<[u8]>, length: usize },
+}
+
+impl Data<'_> {
+    fn bytes(&self) -> &[u8] {
+        match self {
+            Self::Binary(bytes) => bytes,
+            Self::Read { bytes, length } => bytes.get(..*length).unwrap_or(bytes),
+        }
+    }
+}
 
 /// The data of all buffers. One that could not be read is a problem only for what uses it.
 pub(super) struct Buffers<'a> {
-    buffers: Vec<Result<Cow<'a, [u8]>, String>>,
+    buffers: Vec<Result<Data<'a>, String>>,
+    /// Bytes of all sources together, each counted once.
+    pub(super) total_bytes: u64,
 }
 
 impl<'a> Buffers<'a> {
-    /// Reads all buffers; `binary` is the GLB's own.
+    /// Reads all buffers, each URI once; `binary` is the GLB's own.
     pub(super) fn read(
         document: &Document,
         binary: Option<&'a [u8]>,
         files: &dyn Fn(&str) -> io::Result<Vec<u8>>,
     ) -> Self {
-        let buffers = document
-            .buffers
-            .iter()
-            .enumerate()
-            .map(|(index, buffer)| read_buffer(index, buffer, binary, files))
-            .collect();
-        Self { buffers }
-    }
-
-    /// Bytes of all buffers together.
-    pub(super) fn total_len(&self) -> u64 {
-        self.buffers.iter().flatten().map(|buffer| buffer.len() as u64).sum()
+        let mut total_bytes = binary.map_or(0, |binary| binary.len() as u64);
+        let mut read_before: HashMap<&str, Result<Rc<[u8]>, String>> = HashMap::new();
+        let mut buffers = Vec::with_capacity(document.buffers.len());
+        for (index, buffer) in document.buffers.iter().enumerate() {
+            let length = buffer.byte_length.0;
+            let data = match (&buffer.uri, binary) {
+                (Some(uri), _) => read_before
+                    .entry(uri)
+                    .or_insert_with(|| {
+                        let bytes = files::read_uri(uri, files)?;
+                        total_bytes += bytes.len() as u64;
+                        Ok(bytes.into())
+                    })
+                    .clone()
+                    .map(|bytes| Data::Read { bytes, length }),
+                // A GLB's chunk is padded to four bytes.
+                (None, Some(binary)) if index == 0 => {
+                    Ok(Data::Binary(binary.get(..length).unwrap_or(binary)))
+                }
+                (None, _) => Err("it has no data".to_owned()),
+            };
+            buffers.push(data.and_then(|data| {
+                let has = data.bytes().len();
+                if has < length {
+                    return Err(format!(
+                        "it should have {length} bytes, but only {has} are there; export the model again"
+                    ));
+                }
+                Ok(data)
+            }));
+        }
+        Self { buffers, total_bytes }
     }
 
     /// The bytes of a buffer view.
@@ -40,7 +80,7 @@ impl<'a> Buffers<'a> {
             return Err(Problem::invalid(part(), format!("it does not exist, there are {count}")));
         };
         let buffer = match self.buffers.get(view.buffer.0) {
-            Some(Ok(buffer)) => buffer,
+            Some(Ok(buffer)) => buffer.bytes(),
             Some(Err(why)) => {
                 return Err(Problem::invalid(format!("buffer {}", view.buffer.0), why.clone()));
             }
@@ -62,30 +102,4 @@ impl<'a> Buffers<'a> {
             },
         )
     }
-}
-
-fn read_buffer<'a>(
-    index: usize,
-    buffer: &Buffer,
-    binary: Option<&'a [u8]>,
-    files: &dyn Fn(&str) -> io::Result<Vec<u8>>,
-) -> Result<Cow<'a, [u8]>, String> {
-    let mut data: Cow<[u8]> = match (&buffer.uri, binary) {
-        (Some(uri), _) => Cow::Owned(files::read_uri(uri, files)?),
-        (None, Some(binary)) if index == 0 => Cow::Borrowed(binary),
-        (None, _) => return Err("it has no data".to_owned()),
-    };
-    let wanted = buffer.byte_length.0;
-    if data.len() < wanted {
-        let has = data.len();
-        return Err(format!(
-            "it should have {wanted} bytes, but only {has} are there; export the model again"
-        ));
-    }
-    // A GLB chunk is padded to four bytes.
-    match &mut data {
-        Cow::Borrowed(data) => *data = data.get(..wanted).unwrap_or(data),
-        Cow::Owned(data) => data.truncate(wanted),
-    }
-    Ok(data)
 }

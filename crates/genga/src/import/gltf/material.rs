@@ -12,11 +12,6 @@ use crate::scene::{
     AlphaMode, Filter, Image, Material, MipFilter, Sampler, Texture, TextureRef, UvTransform, Wrap,
 };
 
-/// Most bytes of one decoded picture: 16,384 × 16,384 pixels.
-const MAX_IMAGE_BYTES: u64 = 1 << 30;
-/// Most bytes of all decoded pictures together.
-const MAX_ALL_IMAGE_BYTES: u64 = 4 << 30;
-
 /// Materials with all that they refer to.
 pub(super) struct Materials {
     pub(super) materials: Vec<Material>,
@@ -32,7 +27,7 @@ pub(super) fn read(file: &GltfFile) -> Materials {
         images: Vec::new(),
         texture_of: HashMap::new(),
         image_of: HashMap::new(),
-        bytes_left: MAX_ALL_IMAGE_BYTES,
+        decoder: picture::Decoder::default(),
     };
     let materials = file
         .document
@@ -103,7 +98,7 @@ struct Textures<'a, 'f> {
     /// The file's texture index → ours.
     texture_of: HashMap<usize, usize>,
     image_of: HashMap<Source<'a>, Option<usize>>,
-    bytes_left: u64,
+    decoder: picture::Decoder,
 }
 
 impl<'a> Textures<'a, '_> {
@@ -201,16 +196,13 @@ impl<'a> Textures<'a, '_> {
             }
             Source::Uri(uri) => (Cow::Owned(files::read_uri(uri, self.file.files)?), uri),
         };
-        let limit = self.bytes_left.min(MAX_IMAGE_BYTES);
-        let (width, height, rgba) = picture::decode(&bytes, path, limit)?;
-        self.bytes_left = self.bytes_left.saturating_sub(rgba.len() as u64);
         let is_data = path.get(..5).is_some_and(|head| head.eq_ignore_ascii_case("data:"));
         let name = match &item.name {
-            Some(name) if !name.is_empty() => name.clone(),
-            _ if is_data => String::new(),
-            _ => path.to_owned(),
+            Some(name) if !name.is_empty() => name,
+            _ if is_data => "",
+            _ => path,
         };
-        Ok(Image { name, width, height, rgba })
+        self.decoder.decode(name, &bytes, path)
     }
 }
 

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::super::{FARTHEST, Problem};
 use super::accessor::{Accessor, Shape};
 use super::attributes::Attributes;
-use super::document::{Mesh as MeshItem, Primitive as Item};
+use super::document::{Int, Mesh as MeshItem, Primitive as Item};
 use super::{GltfFile, capitalised, label, normals};
 use crate::scene::{Mesh, MorphTarget, Primitive};
 
@@ -65,18 +65,17 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
         4..=6 => {}
         _ => return skip("its mode is unknown"),
     }
-    let Some(positions) = item.attributes.get("POSITION") else {
+    let Some(&Int(position_accessor)) = item.attributes.get("POSITION") else {
         return skip("it has no positions");
     };
-    let accessor = Accessor::of_shape(file, positions.0, &[Shape::Vec3])?;
+    let accessor = Accessor::of_shape(file, position_accessor, &[Shape::Vec3])?;
     let mut positions: Vec<Vec3> = accessor.floats();
     let vertices = positions.len();
     let corners = read_indices(file, what, item, vertices)?;
-    let mut indices = triangles(mode, &corners);
     if mode == 4 && corners.len() % 3 != 0 {
         file.warn(format!("The last triangle of {what} is incomplete and left out."));
     }
-    drop(corners);
+    let mut indices = triangles(mode, corners);
 
     // Triangles at impossible places go, the rest is drawn.
     let mut broken: Vec<bool> = Vec::new();
@@ -86,20 +85,20 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
             *position = Vec3::ZERO;
         }
     }
-    let before = indices.len();
     keep_triangles(&mut indices, |[a, b, c]| a != b && b != c && c != a);
     let whole = indices.len();
     if !broken.is_empty() {
         let is_broken = |i: u32| broken.get(i as usize).copied().unwrap_or(true);
         keep_triangles(&mut indices, |t| !t.into_iter().any(is_broken));
-        let count = (whole - indices.len()) / 3;
+    }
+    let lost = (whole - indices.len()) / 3;
+    if lost > 0 {
         file.warn(format!(
-            "In {what}, {count} triangles are left out: positions in accessor {} are not finite or farther than {FARTHEST:e} m.",
-            item.attributes.get("POSITION").map_or(0, |position| position.0)
+            "In {what}, {lost} triangles are left out: positions in accessor {position_accessor} are not finite or farther than {FARTHEST:e} m."
         ));
     }
     if indices.is_empty() {
-        return skip(if before == 0 { "it has no triangles" } else { "no triangle has an area" });
+        return skip("no triangle of it can be drawn");
     }
 
     let attributes = Attributes { file, what, accessors: &item.attributes, vertices };
@@ -158,7 +157,7 @@ fn read_indices(
 }
 
 /// The triangle list of a list (4), strip (5) or fan (6), wound as glTF 2.0, 3.7.2.1 says.
-fn triangles(mode: usize, corners: &[u32]) -> Vec<u32> {
+fn triangles(mode: usize, mut corners: Vec<u32>) -> Vec<u32> {
     match mode {
         5 => corners
             .windows(3)
@@ -174,7 +173,10 @@ fn triangles(mode: usize, corners: &[u32]) -> Vec<u32> {
             let pairs = rim.windows(2);
             pairs.flat_map(|pair| pair.iter().copied().chain([centre])).collect()
         }
-        _ => corners.as_chunks::<3>().0.as_flattened().to_vec(),
+        _ => {
+            corners.truncate(corners.len() / 3 * 3);
+            corners
+        }
     }
 }
 

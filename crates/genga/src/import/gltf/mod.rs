@@ -64,7 +64,7 @@ pub(super) fn read(
     let document = document::parse(json)?;
     extensions::check(&document, warnings)?;
     let buffers = Buffers::read(&document, binary, files);
-    let input = json.len() as u64 + buffers.total_len();
+    let input = json.len() as u64 + buffers.total_bytes;
     let max_bytes = input.saturating_mul(BYTES_PER_BYTE).saturating_add(FREE_BYTES);
     let file = GltfFile {
         document,

@@ -10,13 +10,7 @@ use glam::{Vec2, Vec3};
 
 use super::{files, for_each_line, number, numbers, picture, quoted, split_keyword};
 use crate::import::warnings::Warnings;
-use crate::scene::{
-    AlphaMode, Image, Material, Sampler, Scene, Texture, TextureRef, UvTransform, Wrap,
-};
-
-/// Most bytes of one decoded picture, and of all together.
-const MAX_IMAGE_BYTES: u64 = 1 << 30;
-const MAX_ALL_IMAGE_BYTES: u64 = 4 << 30;
+use crate::scene::{AlphaMode, Material, Sampler, Scene, Texture, TextureRef, UvTransform, Wrap};
 
 /// Linear light from a displayed colour (IEC 61966-2-1).
 pub(super) fn linear_from_srgb(color: Vec3) -> Vec3 {
@@ -86,6 +80,7 @@ impl<'a> Materials<'a> {
         let libraries = match &whole {
             Err(_) if names.contains(char::is_whitespace) => names
                 .split_whitespace()
+                .filter(|name| self.libraries.insert((*name).to_owned()))
                 .map(|name| (name, files::read_relative(name, self.files)))
                 .collect(),
             _ => vec![(names, whole)],
@@ -133,7 +128,7 @@ impl<'a> Materials<'a> {
             files: self.files,
             image_of: HashMap::new(),
             texture_of: HashMap::new(),
-            bytes_left: MAX_ALL_IMAGE_BYTES,
+            decoder: picture::Decoder::default(),
             scene,
         };
         let mut materials = Vec::with_capacity(self.entries.len());
@@ -249,7 +244,7 @@ struct Textures<'a, 'f> {
     image_of: HashMap<String, Option<usize>>,
     /// The texture of a path and whether it is clamped.
     texture_of: HashMap<(String, bool), usize>,
-    bytes_left: u64,
+    decoder: picture::Decoder,
     scene: &'a mut Scene,
 }
 
@@ -274,13 +269,11 @@ impl Textures<'_, '_> {
     }
 
     fn load(&mut self, path: &str, warnings: &mut Warnings) -> Option<usize> {
-        let limit = self.bytes_left.min(MAX_IMAGE_BYTES);
         let decoded = files::read_relative(path, self.files)
-            .and_then(|bytes| picture::decode(&bytes, path, limit));
+            .and_then(|bytes| self.decoder.decode(path, &bytes, path));
         match decoded {
-            Ok((width, height, rgba)) => {
-                self.bytes_left = self.bytes_left.saturating_sub(rgba.len() as u64);
-                self.scene.images.push(Image { name: path.to_owned(), width, height, rgba });
+            Ok(image) => {
+                self.scene.images.push(image);
                 Some(self.scene.images.len() - 1)
             }
             Err(why) => {

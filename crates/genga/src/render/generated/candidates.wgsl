@@ -139,16 +139,16 @@ fn walk(line: Line) {
             width_count += 1.0;
         }
         let changes = pending_count >= needed;
-        let at = select(i + 1u, i + 1u - pending_count, changes);
-        let is_piece = changes || (i + 1u) % PIECE == 0u || i + 1u == end;
-        if (is_piece) {
-            let width = select(max(last_width, 0.0), width_sum / max(width_count, 1.0), width_count > 0.0);
+        if (changes || (i + 1u) % PIECE == 0u) {
+            let at = select(i + 1u, i + 1u - pending_count, changes);
+            let width = mean_width(width_sum, width_count, last_width);
             if (sets != 0u && at > start) {
-                append(line, f32(start) / f32(lookups), f32(at) / f32(lookups), select(last_width, width, last_width < 0.0), width, sets);
+                let width_0 = select(last_width, width, last_width < 0.0);
+                append(line, f32(start) / f32(lookups), f32(at) / f32(lookups), width_0, width, sets);
                 last_width = width;
             }
             start = at;
-            if (!changes || sets != 0u) {
+            if (sets != 0u) {
                 width_sum = 0.0;
                 width_count = 0.0;
             }
@@ -164,6 +164,15 @@ fn walk(line: Line) {
             }
         }
     }
+    if (sets != 0u && end > start) {
+        let width = mean_width(width_sum, width_count, last_width);
+        let width_0 = select(last_width, width, last_width < 0.0);
+        append(line, f32(start) / f32(lookups), f32(end) / f32(lookups), width_0, width, sets);
+    }
+}
+
+fn mean_width(sum: f32, count: f32, last: f32) -> f32 {
+    return select(max(last, 0.0), sum / max(count, 1.0), count > 0.0);
 }
 
 fn part_in_tile(a: vec2f, along: vec2f) -> vec2f {
@@ -223,18 +232,19 @@ fn owner_width(p_px: vec2f, line_depth: f32, object: u32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let corner = vec2i(round((p_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
     var width = 0.0;
-    var farthest = -1e30;
-    var nearest = 1e30;
+    var behind_all = 1e30;
+    var own_range = vec2f(1e30, -1e30);
     for (var i = 0; i < 4; i++) {
         let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
+        let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
+        behind_all = min(behind_all, behind);
         if (textureLoad(ids, at, 0).x == object) {
-            let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
-            nearest = min(nearest, behind);
-            farthest = max(farthest, behind);
+            own_range = vec2f(min(own_range.x, behind), max(own_range.y, behind));
             width = max(width, textureLoad(normals, at, 0).a);
         }
     }
-    return select(0.0, width, nearest < 32.0 + 2.0 * (farthest - nearest));
+    let slack = 16.0 + 2.0 * max(own_range.y - own_range.x, 0.0);
+    return select(0.0, width, behind_all < slack);
 }
 
 fn append(line: Line, t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32) {

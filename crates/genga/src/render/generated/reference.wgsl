@@ -92,40 +92,6 @@ fn reference_fragment(in: Quad) -> @location(0) vec4f {
     return coverage;
 }
 
-@group(0) @binding(0)
-var<uniform> frame: Frame;
-
-@group(0) @binding(4)
-var mask: texture_2d<u32>;
-
-struct MaskSample {
-    types: u32,
-    strength: f32
-}
-
-fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
-    let size = vec2i(textureDimensions(mask));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    var types = 0u;
-    var strength = 0u;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        let bits = textureLoad(mask, at, 0).x;
-        let found = bits & wanted & 255u;
-        types |= found;
-        if ((found & LINE_SILHOUETTE) != 0u) {
-            strength = max(strength, (bits >> MASK_SILHOUETTE_SHIFT) & 255u);
-        }
-        if ((found & LINE_CREASE) != 0u) {
-            strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
-        }
-        if ((found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u) {
-            strength = 255u;
-        }
-    }
-    return MaskSample(types, f32(strength) / 255.0);
-}
-
 struct Frame {
     clip_from_world: mat4x4f,
     view_from_world: mat4x4f,
@@ -210,10 +176,6 @@ struct StrokeRange {
     draw: u32
 }
 
-fn line_coverage(distance: f32, radius: f32) -> f32 {
-    return clamp(min(distance + 0.5, radius) - max(distance - 0.5, -radius), 0.0, 1.0);
-}
-
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
@@ -221,4 +183,42 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
 
 fn facing_vector(frame: Frame, p_in_world: vec3f) -> vec3f {
     return frame.eye.xyz - p_in_world * frame.eye.w;
+}
+
+@group(0) @binding(0)
+var<uniform> frame: Frame;
+
+@group(0) @binding(4)
+var mask: texture_2d<u32>;
+
+struct MaskSample {
+    types: u32,
+    strength: f32
+}
+
+fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
+    let size = vec2i(textureDimensions(mask));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    var types = 0u;
+    var strength = 0u;
+    for (var i = 0; i < 4; i++) {
+        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
+        let bits = textureLoad(mask, at, 0).x;
+        let found = bits & wanted & 255u;
+        types |= found;
+        if ((found & LINE_SILHOUETTE) != 0u) {
+            strength = max(strength, (bits >> MASK_SILHOUETTE_SHIFT) & 255u);
+        }
+        if ((found & LINE_CREASE) != 0u) {
+            strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
+        }
+        if ((found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u) {
+            strength = 255u;
+        }
+    }
+    return MaskSample(types, f32(strength) / 255.0);
+}
+
+fn line_coverage(distance: f32, radius: f32) -> f32 {
+    return clamp(min(distance + 0.5, radius) - max(distance - 0.5, -radius), 0.0, 1.0);
 }

@@ -43,7 +43,9 @@ impl Binding {
             Self::Uniform => buffer(wgpu::BufferBindingType::Uniform, false),
             Self::DynamicUniform => buffer(wgpu::BufferBindingType::Uniform, true),
             Self::Storage => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
-            Self::StorageWrite => buffer(wgpu::BufferBindingType::Storage { read_only: false }, false),
+            Self::StorageWrite => {
+                buffer(wgpu::BufferBindingType::Storage { read_only: false }, false)
+            }
             Self::Float => texture(wgpu::TextureSampleType::Float { filterable: false }),
             Self::Filtered => texture(wgpu::TextureSampleType::Float { filterable: true }),
             Self::Uint => texture(wgpu::TextureSampleType::Uint),
@@ -94,7 +96,11 @@ pub(crate) fn group(
             resource: resource.clone(),
         })
         .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
 }
 
 /// A pipeline layout of these groups.
@@ -137,11 +143,19 @@ pub(crate) fn buffer<T: bytemuck::Pod>(
 ) -> wgpu::Buffer {
     let zero = [T::zeroed()];
     let contents = bytemuck::cast_slice(if data.is_empty() { &zero } else { data });
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(label),
+        contents,
+        usage,
+    })
 }
 
 /// Elements `T` at every multiple of 256 bytes, for dynamic offsets.
-pub(crate) fn dynamic_uniforms<T: bytemuck::Pod>(device: &wgpu::Device, label: &str, data: &[T]) -> wgpu::Buffer {
+pub(crate) fn dynamic_uniforms<T: bytemuck::Pod>(
+    device: &wgpu::Device,
+    label: &str,
+    data: &[T],
+) -> wgpu::Buffer {
     let mut bytes = vec![0u8; data.len().max(1) * DYNAMIC_STRIDE as usize];
     for (slot, value) in bytes.chunks_exact_mut(DYNAMIC_STRIDE as usize).zip(data) {
         slot[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(value));

@@ -9,7 +9,10 @@ use std::task::{Poll, Waker};
 use crate::render::RenderError;
 
 /// The bytes of a mappable buffer, once everything submitted before has run.
-pub(crate) async fn map(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Result<Vec<u8>, RenderError> {
+pub(crate) async fn map(
+    device: &wgpu::Device,
+    buffer: &wgpu::Buffer,
+) -> Result<Vec<u8>, RenderError> {
     struct State {
         result: Mutex<Option<Result<(), wgpu::BufferAsyncError>>>,
         waker: Mutex<Option<Waker>>,

@@ -17,13 +17,11 @@ pub(crate) fn checked<T>(
     let result = work();
     let errors = [poll_once(validation.pop()), poll_once(memory.pop())];
     let result = result?;
-    for error in errors.into_iter().flatten() {
-        return Err(match error {
-            wgpu::Error::OutOfMemory { .. } => RenderError::OutOfMemory,
-            other => RenderError::Driver { message: other.to_string() },
-        });
+    match errors.into_iter().flatten().next() {
+        None => Ok(result),
+        Some(wgpu::Error::OutOfMemory { .. }) => Err(RenderError::OutOfMemory),
+        Some(other) => Err(RenderError::Driver { message: other.to_string() }),
     }
-    Ok(result)
 }
 
 /// Natively a scope is ready at once; in a browser its errors arrive later, at the device's own

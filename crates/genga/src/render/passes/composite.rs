@@ -61,7 +61,11 @@ impl CompositePass {
         pass.draw(0..3, 0..1);
     }
 
-    fn pipeline(&self, device: &wgpu::Device, format: wgpu::TextureFormat) -> Arc<wgpu::RenderPipeline> {
+    fn pipeline(
+        &self,
+        device: &wgpu::Device,
+        format: wgpu::TextureFormat,
+    ) -> Arc<wgpu::RenderPipeline> {
         let make = || {
             Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("composite"),

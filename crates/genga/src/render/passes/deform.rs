@@ -18,7 +18,12 @@ impl DeformPass {
         Self { pipeline: compute_pipeline(device, &layout, &module, "deform_vertices") }
     }
 
-    pub(crate) fn run(&self, encoder: &mut wgpu::CommandEncoder, prepared: &Prepared, timer: &mut Timer) {
+    pub(crate) fn run(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        timer: &mut Timer,
+    ) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("deform"),
             timestamp_writes: timer.compute("deform"),

@@ -15,8 +15,13 @@ pub(crate) struct DetectPass {
 impl DetectPass {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
         let module = shader(device, "detect", include_str!("../generated/detect.wgsl"));
-        let bindings =
-            [(0, B::Uniform), (1, B::Float), (2, B::Uint), (3, B::Depth), (4, B::Written(MASK_FORMAT))];
+        let bindings = [
+            (0, B::Uniform),
+            (1, B::Float),
+            (2, B::Uint),
+            (3, B::Depth),
+            (4, B::Written(MASK_FORMAT)),
+        ];
         let layout = layout(device, "detect", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "detect", &[&layout]);
         let pipeline = compute_pipeline(device, &pipeline_layout, &module, "detect_lines");
@@ -50,7 +55,8 @@ impl DetectPass {
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
-        let [width, height] = targets.size.pixels.map(|n| (n * targets.size.gbuffer_scale).div_ceil(8));
+        let [width, height] =
+            targets.size.pixels.map(|n| (n * targets.size.gbuffer_scale).div_ceil(8));
         pass.dispatch_workgroups(width, height, 1);
     }
 }

@@ -19,7 +19,9 @@ impl GBufferPass {
         let module = shader(device, "gbuffer", include_str!("../generated/gbuffer.wgsl"));
         let entries = ["gbuffer_vertex", "gbuffer_fragment"];
         let formats = [NORMAL_FORMAT, IDS_FORMAT];
-        Self { pipelines: SurfacePipelines::new(device, layouts, "gbuffer", module, entries, &formats) }
+        Self {
+            pipelines: SurfacePipelines::new(device, layouts, "gbuffer", module, entries, &formats),
+        }
     }
 
     pub(crate) fn run(
@@ -33,14 +35,18 @@ impl GBufferPass {
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("gbuffer"),
-            color_attachments: &[cleared(&targets.normal.view, None), cleared(&targets.ids.view, None)],
+            color_attachments: &[
+                cleared(&targets.normal.view, None),
+                cleared(&targets.ids.view, None),
+            ],
             depth_stencil_attachment: cleared_depth(&targets.depth.view, wgpu::StoreOp::Store),
             timestamp_writes: timer.render("gbuffer"),
             ..Default::default()
         });
         // Blended surfaces enter where they are at least half opaque; the shader decides.
-        let (opaque, blended) = sorted_items(prepared, eye);
-        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, 1)));
+        let [opaque, blended] = sorted_items(prepared, eye);
+        let items =
+            opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, 1)));
         draw_items(device, &mut pass, prepared, &self.pipelines, items);
     }
 }

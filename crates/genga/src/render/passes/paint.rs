@@ -44,12 +44,15 @@ impl PaintPass {
                 targets.paint_samples.as_ref().map(|t| &t.view),
                 &targets.paint.view,
             )],
-            depth_stencil_attachment: cleared_depth(&targets.paint_depth.view, wgpu::StoreOp::Discard),
+            depth_stencil_attachment: cleared_depth(
+                &targets.paint_depth.view,
+                wgpu::StoreOp::Discard,
+            ),
             timestamp_writes: timer.render("paint"),
             ..Default::default()
         });
         let samples = paint_samples(targets.size.paint_scale);
-        let (opaque, blended) = sorted_items(prepared, eye);
+        let [opaque, blended] = sorted_items(prepared, eye);
         let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item, samples)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
         if prepared.style.lines.method == LineMethod::Hull {
@@ -59,8 +62,9 @@ impl PaintPass {
             });
             draw_items(device, &mut pass, prepared, &self.hulls, items);
         }
-        let items =
-            blended.iter().map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item, samples) }));
+        let items = blended
+            .iter()
+            .map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item, samples) }));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
     }
 }

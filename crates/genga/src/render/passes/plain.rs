@@ -27,7 +27,8 @@ impl PlainTargets {
         let size = size.map(|n| n * paint_scale);
         let count = paint_samples(paint_scale);
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let make = |label, samples, format| target(device, label, size, samples, format, usage).view;
+        let make =
+            |label, samples, format| target(device, label, size, samples, format, usage).view;
         Self {
             samples: (count > 1).then(|| make("plain samples", count, PLAIN_FORMAT)),
             sample_count: count,
@@ -43,9 +44,7 @@ impl PlainPass {
         let entries = ["plain_vertex", "plain_fragment"];
         let formats = [PLAIN_FORMAT];
         Self {
-            pipelines: SurfacePipelines::new(
-                device, layouts, "plain", module, entries, &formats,
-            ),
+            pipelines: SurfacePipelines::new(device, layouts, "plain", module, entries, &formats),
         }
     }
 
@@ -65,8 +64,11 @@ impl PlainPass {
             timestamp_writes: timer.render("plain"),
             ..Default::default()
         });
-        let (opaque, blended) = sorted_items(prepared, eye);
-        let items = opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, targets.sample_count)));
+        let [opaque, blended] = sorted_items(prepared, eye);
+        let items = opaque
+            .into_iter()
+            .chain(blended)
+            .map(|(i, item)| (i, item, Variant::of(item, targets.sample_count)));
         draw_items(device, &mut pass, prepared, &self.pipelines, items);
     }
 }

@@ -104,7 +104,11 @@ impl SurfacePipelines {
                 ],
             },
             primitive: wgpu::PrimitiveState {
-                front_face: if variant.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                front_face: if variant.mirrored {
+                    wgpu::FrontFace::Cw
+                } else {
+                    wgpu::FrontFace::Ccw
+                },
                 cull_mode: variant.cull,
                 ..Default::default()
             },
@@ -151,7 +155,8 @@ pub(crate) fn cleared<'a>(
     resolve_target: Option<&'a wgpu::TextureView>,
 ) -> Option<wgpu::RenderPassColorAttachment<'a>> {
     // With a resolve target only that one is needed afterwards.
-    let store = if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
+    let store =
+        if resolve_target.is_some() { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store };
     Some(wgpu::RenderPassColorAttachment {
         view,
         depth_slice: None,
@@ -205,12 +210,12 @@ pub(crate) fn draw_items<'a>(
     }
 }
 
+/// Draws with their numbers in the draw list.
+type NumberedItems<'a> = Vec<(usize, &'a DrawItem)>;
+
 /// The opaque and masked draws in their order, then the blended ones from back to front as seen
 /// from `eye` (`w` as in `Frame::eye`).
-pub(crate) fn sorted_items<'a>(
-    prepared: &'a Prepared,
-    eye: glam::Vec4,
-) -> (Vec<(usize, &'a DrawItem)>, Vec<(usize, &'a DrawItem)>) {
+pub(crate) fn sorted_items(prepared: &Prepared, eye: glam::Vec4) -> [NumberedItems<'_>; 2] {
     let (opaque, mut blended): (Vec<_>, Vec<_>) =
         prepared.draws.iter().enumerate().partition(|(_, item)| !item.blend);
     let nearness = |item: &DrawItem| {
@@ -221,5 +226,5 @@ pub(crate) fn sorted_items<'a>(
         }
     };
     blended.sort_by(|(i, a), (j, b)| nearness(a).total_cmp(&nearness(b)).then(i.cmp(j)));
-    (opaque, blended)
+    [opaque, blended]
 }

@@ -206,7 +206,8 @@ mod tests {
 
     #[test]
     fn a_third_face_on_an_edge_gives_a_border_and_degenerate_triangles_none() {
-        let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+        let corners =
+            [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
         let p = primitive(&corners, &[0, 1, 2, 1, 0, 3, 0, 1, 4, 0, 0, 1]);
         let edges = unique_edges(&p.indices, &weld(&p));
         assert_eq!(edges.len(), 8); // the shared one twice: as a pair and as a border

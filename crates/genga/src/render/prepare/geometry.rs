@@ -273,20 +273,34 @@ impl Geometry {
             pages.iter().map(|page: &Vec<u32>| buffer(device, label, usage, page)).collect()
         };
         let indices = all("indices", Usage::INDEX | Usage::STORAGE, &builder.indices.pages);
-        let mut morph: Vec<_> =
-            builder.morph.pages.iter().map(|page| buffer(device, "morph targets", Usage::STORAGE, page)).collect();
+        let mut morph: Vec<_> = builder
+            .morph
+            .pages
+            .iter()
+            .map(|page| buffer(device, "morph targets", Usage::STORAGE, page))
+            .collect();
         if morph.is_empty() {
             morph.push(buffer(device, "no morph targets", Usage::STORAGE, &[0.0_f32]));
         }
         Self {
-            rest: builder.rest.pages.iter().map(|page| buffer(device, "rest vertices", Usage::STORAGE, page)).collect(),
+            rest: builder
+                .rest
+                .pages
+                .iter()
+                .map(|page| buffer(device, "rest vertices", Usage::STORAGE, page))
+                .collect(),
             attributes: builder
                 .attributes
                 .iter()
                 .map(|page| buffer(device, "vertex attributes", Usage::VERTEX, page))
                 .collect(),
             indices,
-            edges: builder.edges.pages.iter().map(|page| buffer(device, "edges", Usage::STORAGE, page)).collect(),
+            edges: builder
+                .edges
+                .pages
+                .iter()
+                .map(|page| buffer(device, "edges", Usage::STORAGE, page))
+                .collect(),
             morph,
             world: world
                 .iter()

@@ -72,7 +72,12 @@ pub(crate) fn lights_in_view(
             Light {
                 position: Vec3::from(frame.translation).extend(1.0),
                 direction: direction.extend(0.0),
-                factors: Vec4::new(light.strength / total, range.unwrap_or(0.0), cones[0], cones[1]),
+                factors: Vec4::new(
+                    light.strength / total,
+                    range.unwrap_or(0.0),
+                    cones[0],
+                    cones[1],
+                ),
                 kind,
                 reserved_0: 0,
                 reserved_1: 0,

@@ -241,7 +241,9 @@ pub(crate) fn in_blend_space(color: Color, blend: BlendSpace) -> Vec4 {
     let linear = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     match blend {
         BlendSpace::Display => Vec4::from(color.to_array()),
-        BlendSpace::Linear => Vec3::new(linear(color.r), linear(color.g), linear(color.b)).extend(color.a),
+        BlendSpace::Linear => {
+            Vec3::new(linear(color.r), linear(color.g), linear(color.b)).extend(color.a)
+        }
     }
 }
 
@@ -251,8 +253,10 @@ fn rule_of(o: &Override) -> Rule {
         rule.conditions |= gpu::RULE_BASE_COLOR;
         // Half an 8-bit step of slack, so that a bound written from a picked colour includes it.
         let slack = 0.5 / 255.0;
-        rule.base_low = Vec4::new(range.hue[0], range.saturation[0] - slack, range.value[0] - slack, 0.0);
-        rule.base_high = Vec4::new(range.hue[1], range.saturation[1] + slack, range.value[1] + slack, 0.0);
+        rule.base_low =
+            Vec4::new(range.hue[0], range.saturation[0] - slack, range.value[0] - slack, 0.0);
+        rule.base_high =
+            Vec4::new(range.hue[1], range.saturation[1] + slack, range.value[1] + slack, 0.0);
     }
     if let Some(range) = &o.select.vertex_color {
         rule.conditions |= gpu::RULE_VERTEX_COLOR;

@@ -123,7 +123,8 @@ impl Prepared {
     pub(crate) fn fits(&self, scene: &Scene, pose: &Pose) -> bool {
         let nodes = scene.nodes.len();
         nodes == self.node_count
-            && [pose.world_from_node.len(), pose.morph_weights.len(), pose.visible.len()] == [nodes; 3]
+            && [pose.world_from_node.len(), pose.morph_weights.len(), pose.visible.len()]
+                == [nodes; 3]
     }
 
     /// Brings the scene to a pose: matrices, weights, lights. The caller then runs `deform`.

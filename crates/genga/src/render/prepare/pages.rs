@@ -41,9 +41,6 @@ impl<T: Copy> Pages<T> {
 
     /// Adds any number of elements, in as many pieces as it takes: (place, count).
     pub(crate) fn add_pieces(&mut self, items: &[T]) -> Vec<(Place, u32)> {
-        items
-            .chunks(self.capacity)
-            .map(|piece| (self.add(piece), piece.len() as u32))
-            .collect()
+        items.chunks(self.capacity).map(|piece| (self.add(piece), piece.len() as u32)).collect()
     }
 }

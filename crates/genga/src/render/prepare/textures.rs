@@ -1,6 +1,9 @@
 //! Pictures on the GPU, with mip levels.
 
-use std::{collections::HashMap, sync::Arc};
+use std::{
+    collections::HashMap,
+    sync::{Arc, LazyLock},
+};
 
 use wgpu::util::DeviceExt as _;
 
@@ -26,7 +29,10 @@ impl<'a> Textures<'a> {
     }
 
     /// The picture and sampler of a material's texture; white where there is none.
-    pub(crate) fn get(&mut self, texture: Option<TextureRef>) -> (wgpu::TextureView, wgpu::Sampler) {
+    pub(crate) fn get(
+        &mut self,
+        texture: Option<TextureRef>,
+    ) -> (wgpu::TextureView, wgpu::Sampler) {
         let texture = texture.and_then(|t| self.scene.textures.get(t.texture));
         let sampler = texture.map_or_else(Sampler::default, |t| t.sampler);
         let view = match texture.and_then(|t| t.image) {
@@ -38,9 +44,10 @@ impl<'a> Textures<'a> {
 
     /// A picture of a style; white where there is none.
     pub(crate) fn style_image(&self, image: Option<&Arc<Image>>) -> wgpu::TextureView {
-        image.map_or_else(|| self.white.clone(), |image| {
-            upload(self.device, self.queue, &fitted(self.device, image).0, false)
-        })
+        image.map_or_else(
+            || self.white.clone(),
+            |image| upload(self.device, self.queue, &fitted(self.device, image).0, false),
+        )
     }
 
     fn image(&mut self, index: usize) -> wgpu::TextureView {
@@ -108,7 +115,12 @@ fn fitted<'a>(device: &wgpu::Device, image: &'a Image) -> (std::borrow::Cow<'a, 
     (result, was_reduced)
 }
 
-fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, mips: bool) -> wgpu::TextureView {
+fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    image: &Image,
+    mips: bool,
+) -> wgpu::TextureView {
     let mut data = image.rgba.clone();
     let mut levels = 1;
     if mips {
@@ -128,7 +140,11 @@ fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, mips: bool)
         queue,
         &wgpu::TextureDescriptor {
             label: Some("image"),
-            size: wgpu::Extent3d { width: image.width, height: image.height, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d {
+                width: image.width,
+                height: image.height,
+                depth_or_array_layers: 1,
+            },
             mip_level_count: levels,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -145,15 +161,7 @@ fn upload(device: &wgpu::Device, queue: &wgpu::Queue, image: &Image, mips: bool)
 /// The next mip level: means of 2×2 texels in linear light, weighted by alpha.
 fn half(image: &Image) -> Image {
     let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
-    let linear: Vec<f32> = (0..256).map(|v| linear_from_srgb(v as f32 / 255.0)).collect();
-    // 4096 steps are fine enough for 8 bits everywhere but in the darkest tones, where the square
-    // root spreads them.
-    let encoded: Vec<u8> = (0..=4096)
-        .map(|i| {
-            let root = i as f32 / 4096.0;
-            (srgb_from_linear(root * root) * 255.0).round() as u8
-        })
-        .collect();
+    let (linear, encoded) = (&*LINEAR, &*ENCODED);
     let mut rgba = Vec::with_capacity(4 * width as usize * height as usize);
     for y in 0..height {
         let rows = [2 * y, (2 * y + 1).min(image.height - 1)];
@@ -175,13 +183,26 @@ fn half(image: &Image) -> Image {
             }
             for c in 0..3 {
                 let value = if alpha > 0.0 { sum[c] / alpha } else { plain[c] / 4.0 };
-                rgba.push(encoded[(value.clamp(0.0, 1.0).sqrt() * 4096.0).round() as usize]);
+                rgba.push(encoded[(value.clamp(0.0, 1.0).sqrt() * 65536.0).round() as usize]);
             }
             rgba.push((alpha / 4.0 * 255.0).round() as u8);
         }
     }
     Image { name: image.name.clone(), width, height, rgba }
 }
+
+/// Linear light of each 8-bit sRGB value.
+static LINEAR: LazyLock<Vec<f32>> =
+    LazyLock::new(|| (0..256).map(|v| linear_from_srgb(v as f32 / 255.0)).collect());
+
+/// The 8-bit sRGB value by the square root of linear light, which spreads the darkest tones.
+static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let encode = |i: u32| {
+        let root = i as f32 / 65536.0;
+        (srgb_from_linear(root * root) * 255.0).round() as u8
+    };
+    (0..=65536).map(encode).collect()
+});
 
 fn linear_from_srgb(v: f32) -> f32 {
     if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
@@ -201,7 +222,8 @@ mod tests {
 
     #[test]
     fn mips_average_in_linear_light() {
-        let checker = image(2, 2, &[255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255]);
+        let checker =
+            image(2, 2, &[255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 255]);
         assert_eq!(half(&checker).rgba, [188, 188, 188, 255]);
     }
 

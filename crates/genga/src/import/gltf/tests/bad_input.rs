@@ -82,7 +82,7 @@ fn required_extensions() {
 fn missing_buffers() {
     let mut glb = Glb::triangle();
     glb.json["buffers"] = json!([{ "byteLength": 36, "uri": "gone.bin" }]);
-    assert!(glb.error().contains("buffer 0: the file 'gone.bin' cannot be read"));
+    assert!(glb.error().contains("buffer 0: the file 'gone.bin', which belongs beside"));
     glb.json["buffers"] = json!([{ "byteLength": 37 }]);
     assert!(glb.error().contains("37 bytes, but only 36"));
     glb.json["buffers"] = json!([{ "byteLength": 36, "uri": "/etc/passwd" }]);
@@ -206,6 +206,17 @@ fn positions_that_are_not_finite_or_huge_lose_their_triangles() {
 }
 
 #[test]
+fn broken_positions_that_no_triangle_uses_do_not_matter() {
+    let mut glb = Glb::new();
+    let nan = f32::NAN;
+    let positions =
+        glb.floats("VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, nan, nan, nan]);
+    let indices = glb.shorts("SCALAR", 1, &[0, 1, 2]);
+    glb.mesh(json!({ "attributes": { "POSITION": positions }, "indices": indices }));
+    assert_eq!(glb.primitive().positions.len(), 3);
+}
+
+#[test]
 fn what_cannot_be_drawn_is_skipped() {
     let mut glb = Glb::triangle();
     for (mode, why) in [(0, "points"), (1, "lines"), (2, "lines"), (3, "lines"), (7, "mode")] {
@@ -219,7 +230,7 @@ fn what_cannot_be_drawn_is_skipped() {
     let mut glb = Glb::triangle();
     let indices = glb.shorts("SCALAR", 1, &[0, 0, 1]);
     glb.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);
-    assert!(glb.warning().contains("no triangle has an area"));
+    assert!(glb.warning().contains("no triangle of it"));
     let mut glb = Glb::triangle();
     let indices = glb.shorts("SCALAR", 1, &[0, 1, 2, 0]);
     glb.json["meshes"][0]["primitives"][0]["indices"] = json!(indices);

@@ -146,10 +146,12 @@ fn colors_of_three_and_four_numbers() {
     let mut glb = Glb::triangle();
     let colors = glb.accessor(&[255, 0, 51, 9, 0, 0, 0, 9, 255, 255, 255, 9], U8, "VEC3", 3);
     glb.json["bufferViews"][1]["byteStride"] = json!(4);
-    glb.json["accessors"][colors]["normalized"] = json!(true);
     glb.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(colors);
-    let colors = glb.primitive().colors;
-    assert_eq!(colors, [Vec4::new(1.0, 0.0, 0.2, 1.0), Vec4::W, Vec4::ONE]);
+    for normalized in [true, false] {
+        glb.json["accessors"][colors]["normalized"] = json!(normalized);
+        let colors = glb.primitive().colors;
+        assert_eq!(colors, [Vec4::new(1.0, 0.0, 0.2, 1.0), Vec4::W, Vec4::ONE]);
+    }
 
     let mut glb = Glb::triangle();
     let numbers = [0.5, 2.0, -1.0, 0.25, f32::NAN, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0];

@@ -1,0 +1,61 @@
+use genga::render::{Gpu, GpuOptions, Prepared, RenderError, Renderer};
+use genga::scene::Scene;
+use genga::style::Style;
+
+use crate::console::Console;
+use crate::failure::{Failure, Outcome};
+use crate::text::one_line;
+
+/// A device with its renderer.
+pub(crate) struct Graphics {
+    /// The device.
+    pub(crate) gpu: Gpu,
+    /// What draws on it.
+    pub(crate) renderer: Renderer,
+}
+
+impl Graphics {
+    /// The adapter of that name, or the fastest one. Says so if the processor has to draw.
+    pub(crate) fn open(
+        adapter: Option<&str>,
+        timestamps: bool,
+        console: &Console,
+    ) -> Outcome<Self> {
+        let options = GpuOptions { adapter: adapter.map(str::to_owned), timestamps };
+        let gpu = pollster::block_on(Gpu::headless(&options)).map_err(Failure::message)?;
+        if gpu.is_software() && adapter.is_none() {
+            console.note(&format!(
+                "no GPU found; drawing with {} (software)",
+                one_line(&gpu.info().name)
+            ));
+        }
+        let renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(Failure::message)?;
+        Ok(Self { gpu, renderer })
+    }
+
+    /// Uploads a scene and prints what is odd about it.
+    pub(crate) fn prepare(
+        &self,
+        scene: &Scene,
+        style: &Style,
+        console: &Console,
+    ) -> Outcome<Prepared> {
+        let prepared = self.check(&scene.name, self.renderer.prepare(scene, style))?;
+        for warning in prepared.warnings() {
+            console.warning(&one_line(&format!("{}: {warning}", scene.name)));
+        }
+        Ok(prepared)
+    }
+
+    /// Names what could not be drawn, and adds what the driver said meanwhile.
+    pub(crate) fn check<T>(&self, name: &str, result: Result<T, RenderError>) -> Outcome<T> {
+        let fault = self.gpu.take_fault();
+        match (result, fault) {
+            (Ok(value), None) => Ok(value),
+            (Ok(_), Some(fault)) => Err(Failure::Message(one_line(&format!(
+                "{name}: the graphics driver reports an error: {fault}"
+            )))),
+            (Err(error), _) => Err(Failure::Message(one_line(&format!("{name}: {error}")))),
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! What is drawn: a model by itself, or a scene file.
+
+use std::path::{Path, PathBuf};
+
+use genga::render::{Orbit, ViewCamera};
+use genga::scene::{Aabb, Pose, Scene};
+use genga::scene_file::{Picture, SceneCamera, SceneFile};
+use genga::style::Style;
+
+use crate::args::OrbitArgs;
+use crate::console::Console;
+use crate::failure::{Failure, Outcome};
+use crate::model;
+use crate::style_choice::{self, StyleChoice};
+use crate::text::{nearest, one_line};
+
+/// Something to draw.
+pub(crate) struct Source {
+    /// The file's name without folder and ending.
+    pub(crate) name: String,
+    /// Everything in it.
+    pub(crate) scene: Scene,
+    /// All files that were read for it.
+    pub(crate) files: Vec<PathBuf>,
+    /// The picture that it asks for.
+    pub(crate) picture: Picture,
+    camera: Option<SceneCamera>,
+    animation: Animation,
+}
+
+/// How a source moves.
+enum Animation {
+    /// By one clip of the model.
+    Clip(Option<usize>),
+    /// Each model by its own clip, as the file says.
+    File {
+        file: Box<SceneFile>,
+        /// The models, if they move.
+        models: Vec<(PathBuf, Scene)>,
+        /// Where everything stands at the file's own moment.
+        pose: Pose,
+    },
+}
+
+/// Whether a path is that of a scene file.
+pub(crate) fn is_scene_file(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
+/// Reads a model or scene, with the style that a scene asks for. `moves` says whether a moment or
+/// frame is asked for.
+pub(crate) fn load(
+    path: &Path,
+    clip: Option<&str>,
+    moves: bool,
+    console: &Console,
+) -> Outcome<(Source, Option<StyleChoice>)> {
+    if is_scene_file(path) {
+        return load_scene(path, clip, moves, console);
+    }
+    let model = model::load(path).map_err(Failure::message)?;
+    warn(console, &path.display().to_string(), &model.warnings);
+    let scene = model.scene;
+    let clip = match clip {
+        Some(clip) => Some(find_clip(&scene, clip)?),
+        None if moves && scene.clips.is_empty() => {
+            console
+                .warning(&format!("{}: it has no animation, so it stands still", path.display()));
+            None
+        }
+        None => (moves && !scene.clips.is_empty()).then_some(0),
+    };
+    let source = Source {
+        name: model::display_name(path),
+        scene,
+        files: model.files,
+        picture: Picture::default(),
+        camera: None,
+        animation: Animation::Clip(clip),
+    };
+    Ok((source, None))
+}
+
+fn load_scene(
+    path: &Path,
+    clip: Option<&str>,
+    moves: bool,
+    console: &Console,
+) -> Outcome<(Source, Option<StyleChoice>)> {
+    if clip.is_some() {
+        return Err(Failure::Usage(format!(
+            "'--clip' is for models; '{}' says by itself which clip each of its models plays",
+            path.display()
+        )));
+    }
+    let file = SceneFile::load(path)?;
+    let mut files = vec![path.to_owned()];
+    let style = file.load_style()?.map(|style| scene_style(path, &file, style));
+    files.extend(style.iter().filter_map(|style| style.file.clone()));
+    let mut models: Vec<(PathBuf, Scene)> = Vec::new();
+    let assembled = file.assemble(|path| {
+        let model = model::load(path)?;
+        warn(console, &path.display().to_string(), &model.warnings);
+        files.extend(model.files);
+        if moves {
+            models.push((path.to_owned(), model.scene.clone()));
+        }
+        Ok::<_, genga::import::ImportError>(model.scene)
+    })?;
+    for warning in &assembled.warnings {
+        console.warning(&one_line(warning));
+    }
+    if moves && file.models.iter().all(|model| model.clip.is_none()) {
+        console.warning(&format!(
+            "{}: none of its models has a 'clip', so it stands still",
+            path.display()
+        ));
+    }
+    let source = Source {
+        name: model::display_name(path),
+        scene: assembled.scene,
+        files,
+        picture: file.picture,
+        camera: assembled.camera,
+        animation: Animation::File { file: Box::new(file), models, pose: assembled.pose },
+    };
+    Ok((source, style))
+}
+
+fn scene_style(path: &Path, file: &SceneFile, style: Style) -> StyleChoice {
+    let name = file.style.as_ref().map_or("", |name| name.as_str());
+    if style_choice::is_preset(name) {
+        return StyleChoice { name: name.to_owned(), file: None, style };
+    }
+    let file = path.parent().unwrap_or(Path::new("")).join(name);
+    StyleChoice { name: model::display_name(&file), file: Some(file), style }
+}
+
+fn warn(console: &Console, name: &str, warnings: &[String]) {
+    for warning in warnings {
+        console.warning(&one_line(&format!("{name}: {warning}")));
+    }
+}
+
+impl Source {
+    /// Where everything stands, `seconds` into the clip if that is given. For a scene file the
+    /// seconds are added to each model's own.
+    pub(crate) fn pose(&self, seconds: Option<f32>) -> Outcome<Pose> {
+        match &self.animation {
+            Animation::Clip(Some(clip)) => Ok(Pose::at(&self.scene, *clip, seconds.unwrap_or(0.0))),
+            Animation::Clip(None) => Ok(Pose::rest(&self.scene)),
+            Animation::File { file, models, pose } => match seconds {
+                None => Ok(pose.clone()),
+                Some(seconds) => {
+                    let mut file = file.clone();
+                    for model in &mut file.models {
+                        model.time += seconds;
+                    }
+                    let assembled = file.assemble(|path| {
+                        match models.iter().find(|(known, _)| known == path) {
+                            Some((_, scene)) => Ok(scene.clone()),
+                            None => model::load(path).map(|model| model.scene),
+                        }
+                    })?;
+                    Ok(assembled.pose)
+                }
+            },
+        }
+    }
+
+    /// The box around what is drawn, or a sentence if that is nothing.
+    pub(crate) fn drawn(&self, bounds: Option<Aabb>) -> Outcome<Aabb> {
+        bounds.ok_or_else(|| {
+            Failure::Message(format!(
+                "{}: there is nothing to draw: it has no triangles",
+                self.name
+            ))
+        })
+    }
+
+    /// The camera of the model with that name or number.
+    pub(crate) fn named_camera(&self, name: &str, pose: &Pose) -> Outcome<ViewCamera> {
+        let cameras: Vec<(usize, &str, &str)> = (self.scene.nodes.iter().enumerate())
+            .filter_map(|(index, node)| {
+                let camera = self.scene.cameras.get(node.camera?)?;
+                Some((index, node.name.as_str(), camera.name.as_str()))
+            })
+            .collect();
+        let by_name = cameras.iter().find(|(_, node, camera)| *node == name || *camera == name);
+        let by_number = || name.parse().ok().and_then(|index: usize| cameras.get(index));
+        let found = by_name.or_else(by_number);
+        let camera = found.and_then(|(node, ..)| ViewCamera::from_node(&self.scene, pose, *node));
+        camera.ok_or_else(|| {
+            let known = cameras
+                .iter()
+                .map(|(_, node, camera)| if camera.is_empty() { *node } else { *camera });
+            Failure::Message(not_there(&self.name, "camera", name, &known.collect::<Vec<_>>()))
+        })
+    }
+
+    /// The camera without a name: as the options say, else as the scene file says, else the
+    /// library's own.
+    pub(crate) fn camera(
+        &self,
+        options: &OrbitArgs,
+        pose: &Pose,
+        bounds: &Aabb,
+        aspect: f32,
+    ) -> ViewCamera {
+        match self.camera {
+            Some(SceneCamera::Placed(placed)) if !options.any() => ViewCamera {
+                world_from_camera: placed.world_from_camera,
+                projection: placed.projection,
+                near: placed.near,
+            },
+            Some(SceneCamera::Node(node)) if !options.any() => {
+                ViewCamera::from_node(&self.scene, pose, node)
+                    .unwrap_or_else(|| ViewCamera::orbit(bounds, &self.orbit(options), aspect))
+            }
+            _ => ViewCamera::orbit(bounds, &self.orbit(options), aspect),
+        }
+    }
+
+    /// The orbit that the options ask for; the rest is the scene file's or the library's.
+    pub(crate) fn orbit(&self, options: &OrbitArgs) -> Orbit {
+        let base = match self.camera {
+            Some(SceneCamera::Orbit(orbit)) => Orbit {
+                azimuth_deg: orbit.azimuth_deg,
+                elevation_deg: orbit.elevation_deg,
+                zoom: orbit.zoom,
+                fov_deg: orbit.fov_deg,
+                orthographic: orbit.orthographic,
+            },
+            _ => Orbit::default(),
+        };
+        Orbit {
+            azimuth_deg: options.camera_azimuth_angle.unwrap_or(base.azimuth_deg),
+            elevation_deg: options.camera_elevation_angle.unwrap_or(base.elevation_deg),
+            zoom: options.camera_zoom.unwrap_or(base.zoom),
+            fov_deg: options.camera_fov_angle.unwrap_or(base.fov_deg),
+            orthographic: options.orthographic
+                || (base.orthographic && options.camera_fov_angle.is_none()),
+        }
+    }
+}
+
+impl OrbitArgs {
+    /// Whether any of the options is given.
+    pub(crate) fn any(&self) -> bool {
+        self.orthographic
+            || [
+                self.camera_azimuth_angle,
+                self.camera_elevation_angle,
+                self.camera_zoom,
+                self.camera_fov_angle,
+            ]
+            .iter()
+            .any(Option::is_some)
+    }
+}
+
+fn find_clip(scene: &Scene, name: &str) -> Outcome<usize> {
+    let by_number = || name.parse().ok().filter(|&index: &usize| index < scene.clips.len());
+    scene.find_clip(name).or_else(by_number).ok_or_else(|| {
+        let known: Vec<&str> = scene.clips.iter().map(|clip| clip.name.as_str()).collect();
+        Failure::Message(not_there(&scene.name, "clip", name, &known))
+    })
+}
+
+fn not_there(file: &str, what: &str, name: &str, known: &[&str]) -> String {
+    const SHOWN: usize = 20;
+    if known.is_empty() {
+        return format!("{file}: there is no {what} '{name}': there are no {what}s at all");
+    }
+    let meant = match nearest(name, known.iter().copied()) {
+        Some(meant) => format!(", did you mean '{}'?", one_line(meant)),
+        None => String::new(),
+    };
+    let list: Vec<String> = known
+        .iter()
+        .enumerate()
+        .take(SHOWN)
+        .map(|(i, name)| if name.is_empty() { i.to_string() } else { one_line(name) })
+        .collect();
+    let more = if known.len() > SHOWN { ", …" } else { "" };
+    format!("{file}: there is no {what} '{name}'{meant} (known: {}{more})", list.join(", "))
+}
