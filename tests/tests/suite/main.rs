@@ -4,4 +4,7 @@
 mod color;
 mod geometry;
 mod pipelines;
+mod ramp;
+mod selectors;
 mod shaders;
+mod transparency;
