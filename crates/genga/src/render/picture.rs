@@ -250,27 +250,24 @@ impl GBufferSource<'_> {
         aspect: wgpu::TextureAspect,
     ) -> Result<Vec<[u8; N]>, RenderError> {
         let device = &self.renderer.device;
+        let size = [texture.width(), texture.height()];
         let read = scope::checked(device, || {
             let mut encoder = self.renderer.encoder("layer");
-            let (offset, size) = (self.offset, self.kept.size);
-            let scaled = |n: [u32; 2]| n.map(|n| n * self.scale);
-            let read = TextureRead::record(
-                device,
-                &mut encoder,
-                texture,
-                aspect,
-                scaled(offset),
-                scaled(size),
-            );
+            // Depth textures can only be copied whole.
+            let read = TextureRead::record(device, &mut encoder, texture, aspect, [0, 0], size);
             self.renderer.queue.submit([encoder.finish()]);
             Ok(read)
         })?;
         let bytes = read.finish(device).await?;
-        let scale = self.scale as usize;
-        let width = self.kept.size[0] as usize * scale;
         let (texels, _) = bytes.as_chunks::<N>();
-        let rows = texels.chunks_exact(width.max(1)).step_by(scale);
-        Ok(rows.flat_map(|row| row.iter().step_by(scale).copied()).collect())
+        let mut kept = Vec::with_capacity((self.kept.size[0] * self.kept.size[1]) as usize);
+        for y in 0..self.kept.size[1] {
+            let row = ((self.offset[1] + y) * self.scale * size[0]) as usize;
+            for x in 0..self.kept.size[0] {
+                kept.push(texels[row + ((self.offset[0] + x) * self.scale) as usize]);
+            }
+        }
+        Ok(kept)
     }
 
     async fn read(&self, layer: &mut Layer, picture_width: u32) -> Result<(), RenderError> {
