@@ -31,7 +31,7 @@ fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32) -> f32 {
     else {
         metres = difference * distance * distance / frame.depth_range.x;
     }
-    return metres / (footprint(frame, distance) * frame.line_scale);
+    return metres / (footprint(frame, distance) * max(frame.line_scale, 1.0));
 }
 
 fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
@@ -71,7 +71,7 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     let broken = min(break_in_pixels(before_c, depth_c, depth_q), break_in_pixels(after_q, depth_q, depth_c));
     let margin = broken / max(frame.detect.depth, 1e-6) - 1.0;
     if (frame.detect.depth > 0.0 && margin > 0.0) {
-        return bits | LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
+        bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
     }
     let turn = frame.detect.crease_cos - dot(normal_c.xyz, normal_q.xyz);
     if (turn > 0.0) {

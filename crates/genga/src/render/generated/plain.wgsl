@@ -69,6 +69,68 @@ fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
 }
 
+struct MaterialSample {
+    base: vec3f,
+    alpha: f32,
+    emissive: vec3f,
+    look: u32
+}
+
+fn material_sample(in: Surface) -> MaterialSample {
+    let draw = draws[in.draw];
+    let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
+    let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
+    let factor = draw.base_color * in.color;
+    var base = texel.rgb;
+    if (any(factor.rgb != vec3f(1.0))) {
+        base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
+    }
+    let emissive = linear_from_display(glow.rgb) * draw.emissive.rgb;
+    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, draw, base));
+}
+
+fn look_index(in: Surface, draw: Draw, base: vec3f) -> u32 {
+    var combination = 0u;
+    for (var i = 0u; i < draw.rule_count; i++) {
+        if (rule_holds(rules[draw.rule_first + i], in, base)) {
+            combination |= 1u << i;
+        }
+    }
+    return draw.look_first + combination;
+}
+
+fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
+    var holds = true;
+    if ((rule.conditions & RULE_BASE_COLOR) != 0u) {
+        let hsv = hsv_from_rgb(base);
+        let low = rule.base_low.xyz;
+        let high = rule.base_high.xyz;
+        let hue_inside = select(hsv.x >= low.x || hsv.x <= high.x, hsv.x >= low.x && hsv.x <= high.x, low.x <= high.x);
+        holds = hue_inside && all(hsv.yz >= low.yz) && all(hsv.yz <= high.yz);
+    }
+    if ((rule.conditions & RULE_VERTEX_COLOR) != 0u) {
+        holds = holds && all(in.color >= rule.vertex_low) && all(in.color <= rule.vertex_high);
+    }
+    if ((rule.conditions & RULE_ID_TEXTURE) != 0u) {
+        let size = vec2f(textureDimensions(id_texture));
+        let texel = vec2u(min(fract(in.id_uv) * size, size - 1.0));
+        let difference = abs(textureLoad(id_texture, texel, 0).rgb - rule.id_color.rgb);
+        holds = holds && all(difference <= vec3f(rule.id_tolerance));
+    }
+    return holds;
+}
+
+fn is_cut_out(in: Surface, alpha: f32) -> bool {
+    let draw = draws[in.draw];
+    return (draw.flags & DRAW_ALPHA_MASK) != 0u && alpha < draw.alpha_cutoff;
+}
+
+fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
+    let length_squared = dot(in.normal, in.normal);
+    let unit = in.normal * inverseSqrt(max(length_squared, 1e-12));
+    return select(-unit, unit, front_facing);
+}
+
 @group(0) @binding(0)
 var<uniform> frame: Frame;
 
@@ -184,101 +246,6 @@ const LIGHT_DIRECTIONAL: u32 = 0u;
 
 const LIGHT_SPOT: u32 = 2u;
 
-fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
-    let ndc = clip.xy / clip.w;
-    return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
-}
-
-fn tile_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
-    if (clip.w > 0.5 * frame.depth_range.x) {
-        let pixels = picture_from_clip(frame, clip);
-        if (all(abs(pixels) < vec2f(65536.0))) {
-            let grid = 256.0 * texels_per_pixel;
-            let snapped = round(pixels * grid) / grid;
-            let ndc = ((snapped - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
-            return vec4f(ndc * clip.w, clip.z, clip.w);
-        }
-    }
-    let scale = frame.picture_size / frame.tile_size;
-    let offset = (frame.picture_size - 2.0 * frame.tile_origin) / frame.tile_size - 1.0;
-    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
-}
-
-fn sign_not_zero(v: vec2f) -> vec2f {
-    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn octahedral_unpack(bits: u32) -> vec3f {
-    let p = unpack2x16snorm(bits);
-    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) {
-        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
-    }
-    return normalize(n);
-}
-
-struct MaterialSample {
-    base: vec3f,
-    alpha: f32,
-    emissive: vec3f,
-    look: u32
-}
-
-fn material_sample(in: Surface) -> MaterialSample {
-    let draw = draws[in.draw];
-    let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
-    let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draw.base_color * in.color;
-    var base = texel.rgb;
-    if (any(factor.rgb != vec3f(1.0))) {
-        base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
-    }
-    let emissive = linear_from_display(glow.rgb) * draw.emissive.rgb;
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, draw, base));
-}
-
-fn look_index(in: Surface, draw: Draw, base: vec3f) -> u32 {
-    var combination = 0u;
-    for (var i = 0u; i < draw.rule_count; i++) {
-        if (rule_holds(rules[draw.rule_first + i], in, base)) {
-            combination |= 1u << i;
-        }
-    }
-    return draw.look_first + combination;
-}
-
-fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
-    var holds = true;
-    if ((rule.conditions & RULE_BASE_COLOR) != 0u) {
-        let hsv = hsv_from_rgb(base);
-        let low = rule.base_low.xyz;
-        let high = rule.base_high.xyz;
-        let hue_inside = select(hsv.x >= low.x || hsv.x <= high.x, hsv.x >= low.x && hsv.x <= high.x, low.x <= high.x);
-        holds = hue_inside && all(hsv.yz >= low.yz) && all(hsv.yz <= high.yz);
-    }
-    if ((rule.conditions & RULE_VERTEX_COLOR) != 0u) {
-        holds = holds && all(in.color >= rule.vertex_low) && all(in.color <= rule.vertex_high);
-    }
-    if ((rule.conditions & RULE_ID_TEXTURE) != 0u) {
-        let size = vec2f(textureDimensions(id_texture));
-        let texel = vec2u(min(fract(in.id_uv) * size, size - 1.0));
-        let difference = abs(textureLoad(id_texture, texel, 0).rgb - rule.id_color.rgb);
-        holds = holds && all(difference <= vec3f(rule.id_tolerance));
-    }
-    return holds;
-}
-
-fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    let draw = draws[in.draw];
-    return (draw.flags & DRAW_ALPHA_MASK) != 0u && alpha < draw.alpha_cutoff;
-}
-
-fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
-    let length_squared = dot(in.normal, in.normal);
-    let unit = in.normal * inverseSqrt(max(length_squared, 1e-12));
-    return select(-unit, unit, front_facing);
-}
-
 fn linear_from_display(c: vec3f) -> vec3f {
     let low = c / 12.92;
     let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
@@ -335,4 +302,37 @@ fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
         return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
     }
     return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
+}
+
+fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
+    let ndc = clip.xy / clip.w;
+    return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn tile_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
+    if (clip.w > 0.5 * frame.depth_range.x) {
+        let pixels = picture_from_clip(frame, clip);
+        if (all(abs(pixels) < vec2f(65536.0))) {
+            let grid = 256.0 * texels_per_pixel;
+            let snapped = round(pixels * grid) / grid;
+            let ndc = ((snapped - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
+            return vec4f(ndc * clip.w, clip.z, clip.w);
+        }
+    }
+    let scale = frame.picture_size / frame.tile_size;
+    let offset = (frame.picture_size - 2.0 * frame.tile_origin) / frame.tile_size - 1.0;
+    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn octahedral_unpack(bits: u32) -> vec3f {
+    let p = unpack2x16snorm(bits);
+    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) {
+        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
+    }
+    return normalize(n);
 }

@@ -61,25 +61,6 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
     return coverage;
 }
 
-@group(0) @binding(0)
-var<uniform> frame: Frame;
-
-@group(0) @binding(5)
-var ids: texture_2d<u32>;
-
-@group(0) @binding(6)
-var depths: texture_depth_2d;
-
-fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
-        return (line_depth - surface) / frame.pixel_footprint;
-    }
-    let line_distance = 1.0 / line_depth;
-    let surface_inverse = depth / frame.depth_range.x;
-    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
-}
-
 struct Frame {
     clip_from_world: mat4x4f,
     view_from_world: mat4x4f,
@@ -147,6 +128,25 @@ struct Segment {
     line_sets: u32,
     reserved_0: u32,
     reserved_1: u32
+}
+
+@group(0) @binding(0)
+var<uniform> frame: Frame;
+
+@group(0) @binding(5)
+var ids: texture_2d<u32>;
+
+@group(0) @binding(6)
+var depths: texture_depth_2d;
+
+fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
+        return (line_depth - surface) / frame.pixel_footprint;
+    }
+    let line_distance = 1.0 / line_depth;
+    let surface_inverse = depth / frame.depth_range.x;
+    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {
