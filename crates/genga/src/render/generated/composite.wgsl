@@ -77,8 +77,12 @@ fn encoded(color: vec4f) -> vec4f {
     if (color.a <= 0.0) {
         return vec4f(0.0);
     }
+    let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     let linear_output = (frame.flags & FRAME_OUTPUT_LINEAR) != 0u;
+    if (linear_blend == linear_output && !is_straight) {
+        return color;
+    }
     var straight = color.rgb / color.a;
     if (linear_output && !linear_blend) {
         straight = linear_from_display(straight);
@@ -86,7 +90,6 @@ fn encoded(color: vec4f) -> vec4f {
     if (linear_blend && !linear_output) {
         straight = display_from_linear(straight);
     }
-    let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
 }
 
@@ -153,9 +156,12 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         else if (frame.line_method == METHOD_IMAGE) {
             ink = mask_coverage(pixel);
         }
-        for (var i = 0u; i < frame.line_set_count; i++) {
-            let alpha = ink[i] * frame.line_sets[i].color.a;
-            color = over(vec4f(frame.line_sets[i].color.rgb * alpha, alpha), color);
+        let count = select(0u, frame.line_set_count, any(ink > vec4f(0.0)));
+        for (var i = 0u; i < count; i++) {
+            let line = frame.line_sets[i].color;
+            let alpha = ink.x * line.a;
+            color = over(vec4f(line.rgb * alpha, alpha), color);
+            ink = ink.yzwx;
         }
     }
     return encoded(color);

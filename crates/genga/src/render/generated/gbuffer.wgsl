@@ -218,8 +218,7 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
 }
 
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    let draw = draws[in.draw];
-    return (draw.flags & DRAW_ALPHA_MASK) != 0u && alpha < draw.alpha_cutoff;
+    return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -228,27 +227,31 @@ fn linear_from_display(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.04045));
 }
 
-fn look_index(in: Surface, draw: Draw, base: vec3f) -> u32 {
+fn look_index(in: Surface, base: vec3f) -> u32 {
     var combination = 0u;
-    for (var i = 0u; i < draw.rule_count; i++) {
-        if (rule_holds(rules[draw.rule_first + i], in, base)) {
+    let first = draws[in.draw].rule_first;
+    let count = draws[in.draw].rule_count;
+    for (var i = 0u; i < count; i++) {
+        if (rule_holds(rules[first + i], in, base)) {
             combination |= 1u << i;
         }
     }
-    return draw.look_first + combination;
+    return draws[in.draw].look_first + combination;
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
-    let draw = draws[in.draw];
     let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
     let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draw.base_color * in.color;
+    let factor = draws[in.draw].base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
         base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
     }
-    let emissive = linear_from_display(glow.rgb) * draw.emissive.rgb;
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, draw, base));
+    var emissive = draws[in.draw].emissive.rgb;
+    if (any(emissive > vec3f(0.0))) {
+        emissive *= linear_from_display(glow.rgb);
+    }
+    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -317,13 +320,12 @@ fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
 @fragment
 fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> GBuffer {
     let material = material_sample(in);
-    let draw = draws[in.draw];
-    let transparent = (draw.flags & DRAW_ALPHA_BLEND) != 0u && material.alpha < 0.5;
+    let transparent = (draws[in.draw].flags & DRAW_ALPHA_BLEND) != 0u && material.alpha < 0.5;
     if (transparent || is_cut_out(in, material.alpha)) {
         discard;
     }
     let normal = facing_normal(in, front_facing);
-    let ids = vec2u(draw.object_id, draw.material_id | (looks[material.look].line_id << 16u));
+    let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (looks[material.look].line_id << 16u));
     let width = select(0.0, looks[material.look].line_width, in.line_width > 0.0);
     return GBuffer(vec4f(normal, width), ids);
 }

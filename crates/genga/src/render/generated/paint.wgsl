@@ -270,31 +270,29 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
 }
 
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    let draw = draws[in.draw];
-    return (draw.flags & DRAW_ALPHA_MASK) != 0u && alpha < draw.alpha_cutoff;
+    return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return light.factors.x * dot(normal, light.direction.xyz);
+fn light_share(index: u32, p_in_world: vec3f, normal: vec3f) -> f32 {
+    let kind = lights[index].kind;
+    let factors = lights[index].factors;
+    let direction = lights[index].direction.xyz;
+    if (kind == LIGHT_DIRECTIONAL) {
+        return factors.x * dot(normal, direction);
     }
-    let offset = light.position.xyz - p_in_world;
+    let offset = lights[index].position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
     let to_light = offset * inverseSqrt(distance_squared);
     var falloff = 1.0;
-    let range = light.factors.y;
-    if (range > 0.0) {
-        let ratio = distance_squared / (range * range);
+    if (factors.y > 0.0) {
+        let ratio = distance_squared / (factors.y * factors.y);
         falloff = saturate(1.0 - ratio * ratio);
     }
-    if (light.kind == LIGHT_SPOT) {
-        let cosine = dot(-to_light, light.direction.xyz);
-        let inner = light.factors.z;
-        let outer = light.factors.w;
-        falloff *= saturate((cosine - outer) / max(inner - outer, 0.0001));
-        return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    if (kind == LIGHT_SPOT) {
+        let cosine = dot(-to_light, direction);
+        falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -303,27 +301,31 @@ fn linear_from_display(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.04045));
 }
 
-fn look_index(in: Surface, draw: Draw, base: vec3f) -> u32 {
+fn look_index(in: Surface, base: vec3f) -> u32 {
     var combination = 0u;
-    for (var i = 0u; i < draw.rule_count; i++) {
-        if (rule_holds(rules[draw.rule_first + i], in, base)) {
+    let first = draws[in.draw].rule_first;
+    let count = draws[in.draw].rule_count;
+    for (var i = 0u; i < count; i++) {
+        if (rule_holds(rules[first + i], in, base)) {
             combination |= 1u << i;
         }
     }
-    return draw.look_first + combination;
+    return draws[in.draw].look_first + combination;
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
-    let draw = draws[in.draw];
     let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
     let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draw.base_color * in.color;
+    let factor = draws[in.draw].base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
         base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
     }
-    let emissive = linear_from_display(glow.rgb) * draw.emissive.rgb;
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, draw, base));
+    var emissive = draws[in.draw].emissive.rgb;
+    if (any(emissive > vec3f(0.0))) {
+        emissive *= linear_from_display(glow.rgb);
+    }
+    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -340,29 +342,32 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
 }
 
-fn ramp_color(look: Look, t: f32, width: f32) -> RampColor {
-    var tone = look.tones[0];
-    var color = mix(vec3f(1.0), tone.color.rgb, select(tone.color.a, 1.0, tone.replace > 0.5));
-    var replace = tone.replace * tone.color.a;
-    for (var i = 1u; i < look.tone_count; i++) {
-        let previous_at = tone.at;
-        tone = look.tones[i];
+fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
+    var result = tone_color(look, 0u);
+    let count = looks[look].tone_count;
+    let is_smooth = (looks[look].flags & LOOK_SMOOTH_RAMP) != 0u;
+    var previous_at = looks[look].tones[0].at;
+    for (var i = 1u; i < count; i++) {
+        let at = looks[look].tones[i].at;
         var weight: f32;
-        if ((look.flags & LOOK_SMOOTH_RAMP) != 0u) {
-            weight = saturate((t - previous_at) / max(tone.at - previous_at, 1e-6));
+        if (is_smooth) {
+            weight = saturate((t - previous_at) / max(at - previous_at, 1e-6));
         }
         else {
-            let half_width = 0.5 * max(tone.softness, width);
-            weight = saturate((t - tone.at) / max(2.0 * half_width, 1e-6) + 0.5);
-            if (tone.softness > width) {
+            let softness = looks[look].tones[i].softness;
+            weight = saturate((t - at) / max(max(softness, width), 1e-6) + 0.5);
+            if (softness > width) {
                 weight = weight * weight * (3.0 - 2.0 * weight);
             }
         }
-        let next = mix(vec3f(1.0), tone.color.rgb, select(tone.color.a, 1.0, tone.replace > 0.5));
-        color = mix(color, next, weight);
-        replace = mix(replace, tone.replace * tone.color.a, weight);
+        if (weight > 0.0) {
+            let next = tone_color(look, i);
+            result.color = mix(result.color, next.color, weight);
+            result.replace = mix(result.replace, next.replace, weight);
+        }
+        previous_at = at;
     }
-    return RampColor(color, replace);
+    return result;
 }
 
 fn ramp_picture(row: u32, t: f32) -> vec3f {
@@ -425,6 +430,14 @@ fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
     return normalize(frame.eye.xyz - p_in_world);
 }
 
+fn tone_color(look: u32, index: u32) -> RampColor {
+    let color = looks[look].tones[index].color;
+    if (looks[look].tones[index].replace > 0.5) {
+        return RampColor(color.rgb, color.a);
+    }
+    return RampColor(mix(vec3f(1.0), color.rgb, color.a), 0.0);
+}
+
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
@@ -441,17 +454,22 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let material = material_sample(in);
-    let draw = draws[in.draw];
+    let draw_flags = draws[in.draw].flags;
     let normal = facing_normal(in, front_facing);
     let look_index = material.look;
+    let look_flags = looks[look_index].flags;
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
     for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(lights[i], in.p_in_world, normal);
+        sum += light_share(i, in.p_in_world, normal);
     }
     let sum_width = fwidth(sum);
-    let rim = dot(normal, to_eye(frame, in.p_in_world));
-    let rim_width = fwidth(rim);
+    var rim = 0.0;
+    var rim_width = 0.0;
+    if (frame.line_method == METHOD_RIM) {
+        rim = dot(normal, to_eye(frame, in.p_in_world));
+        rim_width = fwidth(rim);
+    }
     if (is_cut_out(in, material.alpha)) {
         discard;
     }
@@ -459,29 +477,29 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
     let t = saturate(0.5 + 0.5 * clamp(sum * gain, -1.0, 1.0) + looks[look_index].shade_bias);
     let t_width = 0.5 * gain * sum_width;
     var base = material.base;
-    if ((looks[look_index].flags & LOOK_BASE_FIXED) != 0u) {
+    if ((look_flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[look_index].fixed_color.rgb;
     }
     if (linear_blend) {
         base = linear_from_display(base);
     }
     var color = base;
-    if ((draw.flags & DRAW_UNLIT) == 0u) {
-        if ((looks[look_index].flags & LOOK_RAMP_IMAGE) != 0u) {
+    if ((draw_flags & DRAW_UNLIT) == 0u) {
+        if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
             color = base * ramp_picture(looks[look_index].ramp_row, t);
         }
         else {
-            color = apply_ramp(base, ramp_color(looks[look_index], t, t_width));
+            color = apply_ramp(base, ramp_color(look_index, t, t_width));
         }
     }
     if (any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
     }
     var alpha = 1.0;
-    if ((draw.flags & DRAW_ALPHA_BLEND) != 0u) {
+    if ((draw_flags & DRAW_ALPHA_BLEND) != 0u) {
         alpha = saturate(material.alpha);
     }
-    if ((looks[look_index].flags & LOOK_BASE_NONE) != 0u) {
+    if ((look_flags & LOOK_BASE_NONE) != 0u) {
         color = vec3f(0.0);
         alpha = 0.0;
     }
@@ -491,7 +509,7 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
         let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
         let ink = saturate((threshold - rim) / soft + 0.5);
         let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
-        let strength = ink * line.a * select(1.0, alpha, (draw.flags & DRAW_ALPHA_BLEND) != 0u);
+        let strength = ink * line.a * select(1.0, alpha, (draw_flags & DRAW_ALPHA_BLEND) != 0u);
         result = vec4f(mix(result.rgb, line.rgb, strength), mix(result.a, 1.0, strength));
     }
     return result;
@@ -499,18 +517,18 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
 
 @vertex
 fn hull_vertex(in: VertexInput) -> Hull {
-    let draw = draws[in.draw];
-    let factor = looks[draw.look_first].line_width * in.line_width;
+    let look = draws[in.draw].look_first;
+    let factor = looks[look].line_width * in.line_width;
     let normal = octahedral_unpack(in.smooth_normal);
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
     let radius_px = frame.line_sets[max(frame.line_set_count, 1u) - 1u].radius * 2.0;
-    var offset = looks[draw.look_first].hull_width_m;
+    var offset = looks[look].hull_width_m;
     if (offset <= 0.0) {
         offset = radius_px * footprint(frame, max(clip.w, frame.depth_range.x));
     }
     offset *= factor;
     var moved = frame.clip_from_world * vec4f(in.p_in_world + normal * offset, 1.0);
-    if (looks[draw.look_first].hull_width_m <= 0.0 && clip.w > 0.0 && moved.w > 0.0) {
+    if (looks[look].hull_width_m <= 0.0 && clip.w > 0.0 && moved.w > 0.0) {
         let aspect = vec2f(frame.picture_size.x / frame.picture_size.y, 1.0);
         let along = (moved.xy / moved.w - clip.xy / clip.w) * aspect;
         let length_ndc = length(along);

@@ -198,31 +198,29 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
 }
 
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    let draw = draws[in.draw];
-    return (draw.flags & DRAW_ALPHA_MASK) != 0u && alpha < draw.alpha_cutoff;
+    return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return light.factors.x * dot(normal, light.direction.xyz);
+fn light_share(index: u32, p_in_world: vec3f, normal: vec3f) -> f32 {
+    let kind = lights[index].kind;
+    let factors = lights[index].factors;
+    let direction = lights[index].direction.xyz;
+    if (kind == LIGHT_DIRECTIONAL) {
+        return factors.x * dot(normal, direction);
     }
-    let offset = light.position.xyz - p_in_world;
+    let offset = lights[index].position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
     let to_light = offset * inverseSqrt(distance_squared);
     var falloff = 1.0;
-    let range = light.factors.y;
-    if (range > 0.0) {
-        let ratio = distance_squared / (range * range);
+    if (factors.y > 0.0) {
+        let ratio = distance_squared / (factors.y * factors.y);
         falloff = saturate(1.0 - ratio * ratio);
     }
-    if (light.kind == LIGHT_SPOT) {
-        let cosine = dot(-to_light, light.direction.xyz);
-        let inner = light.factors.z;
-        let outer = light.factors.w;
-        falloff *= saturate((cosine - outer) / max(inner - outer, 0.0001));
-        return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    if (kind == LIGHT_SPOT) {
+        let cosine = dot(-to_light, direction);
+        falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return light.factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -231,27 +229,31 @@ fn linear_from_display(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.04045));
 }
 
-fn look_index(in: Surface, draw: Draw, base: vec3f) -> u32 {
+fn look_index(in: Surface, base: vec3f) -> u32 {
     var combination = 0u;
-    for (var i = 0u; i < draw.rule_count; i++) {
-        if (rule_holds(rules[draw.rule_first + i], in, base)) {
+    let first = draws[in.draw].rule_first;
+    let count = draws[in.draw].rule_count;
+    for (var i = 0u; i < count; i++) {
+        if (rule_holds(rules[first + i], in, base)) {
             combination |= 1u << i;
         }
     }
-    return draw.look_first + combination;
+    return draws[in.draw].look_first + combination;
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
-    let draw = draws[in.draw];
     let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
     let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draw.base_color * in.color;
+    let factor = draws[in.draw].base_color * in.color;
     var base = texel.rgb;
     if (any(factor.rgb != vec3f(1.0))) {
         base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
     }
-    let emissive = linear_from_display(glow.rgb) * draw.emissive.rgb;
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, draw, base));
+    var emissive = draws[in.draw].emissive.rgb;
+    if (any(emissive > vec3f(0.0))) {
+        emissive *= linear_from_display(glow.rgb);
+    }
+    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -326,7 +328,7 @@ fn plain_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
     let normal = facing_normal(in, front_facing);
     var sum = 0.0;
     for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(lights[i], in.p_in_world, normal);
+        sum += light_share(i, in.p_in_world, normal);
     }
     let lit = linear_from_display(material.base) * max(sum, 0.0);
     return vec4f(display_from_linear(lit), 1.0);
