@@ -1,4 +1,6 @@
-use genga::render::{Gpu, GpuOptions, Prepared, RenderError, Renderer};
+use std::time::Instant;
+
+use genga::render::{Gpu, GpuOptions, LayerKind, Picture, Prepared, RenderError, Renderer, View};
 use genga::scene::Scene;
 use genga::style::Style;
 
@@ -29,6 +31,14 @@ impl Graphics {
                 one_line(&gpu.info().name)
             ));
         }
+        let info = gpu.info();
+        log::info!(
+            "adapter: {} ({}, {} {})",
+            info.name,
+            info.backend,
+            info.driver,
+            info.driver_info
+        );
         let renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(Failure::message)?;
         Ok(Self { gpu, renderer })
     }
@@ -45,6 +55,24 @@ impl Graphics {
             console.warning(&one_line(&format!("{}: {warning}", scene.name)));
         }
         Ok(prepared)
+    }
+
+    /// Draws a picture.
+    pub(crate) fn picture(
+        &self,
+        name: &str,
+        prepared: &Prepared,
+        view: &View,
+        layers: &[LayerKind],
+        progress: &mut dyn FnMut(u32, u32),
+    ) -> Outcome<Picture> {
+        let begin = Instant::now();
+        let picture = self.renderer.picture(prepared, view, layers, progress);
+        let picture = self.check(name, pollster::block_on(picture))?;
+        let [width, height] = view.size;
+        let milliseconds = begin.elapsed().as_secs_f64() * 1e3;
+        log::info!("drew {name} at {width}x{height} in {milliseconds:.0} ms");
+        Ok(picture)
     }
 
     /// Names what could not be drawn, and adds what the driver said meanwhile.

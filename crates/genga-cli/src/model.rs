@@ -2,6 +2,7 @@ use std::cell::RefCell;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use genga::import::{self, ImportError, Problem};
 use genga::scene::Scene;
@@ -18,6 +19,7 @@ pub(crate) struct Model {
 
 /// Reads a model and remembers which files it came from.
 pub(crate) fn load(path: &Path) -> Result<Model, ImportError> {
+    let begin = Instant::now();
     let name = path.display().to_string();
     let bytes = read(path)
         .map_err(|error| ImportError { file: name.clone(), problem: Problem::Read(error) })?;
@@ -30,6 +32,12 @@ pub(crate) fn load(path: &Path) -> Result<Model, ImportError> {
         Ok(bytes)
     })?;
     imported.scene.name = display_name(path);
+    log::info!(
+        "read {name} in {:.0} ms: {} triangles, {} vertices",
+        begin.elapsed().as_secs_f64() * 1e3,
+        imported.scene.triangle_count(),
+        imported.scene.vertex_count(),
+    );
     Ok(Model { scene: imported.scene, warnings: imported.warnings, files: files.into_inner() })
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use genga::export::{Samples, write_exr, write_png};
 use genga::render::{Layer, LayerData, LayerKind, Picture};
@@ -63,6 +64,13 @@ impl Saver {
 
     /// Writes a picture and its layers.
     pub(crate) fn save(&mut self, picture: &Picture, target: &Target) -> Outcome {
+        let begin = Instant::now();
+        self.write(picture, target)?;
+        log::info!("written in {:.0} ms", begin.elapsed().as_secs_f64() * 1e3);
+        Ok(())
+    }
+
+    fn write(&mut self, picture: &Picture, target: &Target) -> Outcome {
         let (width, height) = (picture.width, picture.height);
         match target {
             Target::Stdout => write_stdout(|out| write_png(out, width, height, &picture.rgba)),

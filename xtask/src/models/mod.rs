@@ -40,7 +40,7 @@ pub(crate) fn write(root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Fails unless the committed models are what [`write`] would write.
+/// Fails unless the committed models are what [`write()`] would write.
 pub(crate) fn check(root: &Path) -> Result<()> {
     let mut stale = Vec::new();
     for (name, make) in MODELS {

@@ -124,13 +124,9 @@ impl Shoot<'_> {
             let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
             graphics.check(&source.name, posed)?;
             let view = view::view(&args.picture, source, self.camera(&pose, &points)?);
-            let picture = pollster::block_on(graphics.renderer.picture(
-                &prepared,
-                &view,
-                &layers,
-                &mut |done, tiles| progress.set(number, done, tiles),
-            ));
-            saver.save(&graphics.check(&source.name, picture)?, &target)?;
+            let step = &mut |done, tiles| progress.set(number, done, tiles);
+            let picture = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
+            saver.save(&picture, &target)?;
             progress.set(number + 1, 0, 1);
         }
         Ok(())

@@ -40,13 +40,9 @@ pub(crate) fn run(args: &TurntableArgs, console: &Console) -> Outcome {
         let target = names.target(&source.name, &style.name, frame as i64, frame);
         saver.check(&target, &layers, &inputs)?;
         let view = view::view(picture, &source, camera);
-        let drawn = pollster::block_on(graphics.renderer.picture(
-            &prepared,
-            &view,
-            &layers,
-            &mut |done, tiles| progress.set(frame, done, tiles),
-        ));
-        saver.save(&graphics.check(&source.name, drawn)?, &target)?;
+        let step = &mut |done, tiles| progress.set(frame, done, tiles);
+        let drawn = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
+        saver.save(&drawn, &target)?;
         progress.set(frame + 1, 0, 1);
     }
     drop(progress);

@@ -12,21 +12,88 @@ var coverage: texture_2d<f32>;
 @group(0) @binding(3)
 var mask: texture_2d<u32>;
 
-@vertex
-fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
-    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
+const FRAME_BACKGROUND: u32 = 4u;
+
+const FRAME_LINEAR_BLEND: u32 = 1u;
+
+const FRAME_OUTPUT_LINEAR: u32 = 8u;
+
+const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
+
+const FRAME_SHOW_LINES: u32 = 32u;
+
+const FRAME_SHOW_PAINT: u32 = 16u;
+
+const METHOD_CONTOUR: u32 = 1u;
+
+const METHOD_IMAGE: u32 = 5u;
+
+const METHOD_REFERENCE: u32 = 2u;
+
+struct Detect {
+    depth: f32,
+    crease_cos: f32,
+    identities: u32,
+    max_width_factor: f32
 }
 
-fn paint_at(pixel: vec2i) -> vec4f {
-    let scale = i32(frame.paint_scale);
-    var sum = vec4f(0.0);
-    for (var y = 0; y < scale; y++) {
-        for (var x = 0; x < scale; x++) {
-            sum += textureLoad(paint, pixel * scale + vec2i(x, y), 0);
-        }
+struct Frame {
+    clip_from_world: mat4x4f,
+    view_from_world: mat4x4f,
+    eye: vec4f,
+    background_top: vec4f,
+    background_bottom: vec4f,
+    picture_size: vec2f,
+    tile_origin: vec2f,
+    tile_size: vec2f,
+    depth_range: vec2f,
+    pixel_footprint: f32,
+    line_scale: f32,
+    paint_scale: f32,
+    gbuffer_scale: f32,
+    light_count: u32,
+    flags: u32,
+    line_set_count: u32,
+    line_method: u32,
+    line_sets: array<LineSet, 4>,
+    detect: Detect
+}
+
+struct LineSet {
+    color: vec4f,
+    types: u32,
+    radius: f32,
+    reserved_0: u32,
+    reserved_1: u32
+}
+
+fn display_from_linear(c: vec3f) -> vec3f {
+    let low = c * 12.92;
+    let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
+    return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn encoded(color: vec4f) -> vec4f {
+    if (color.a <= 0.0) {
+        return vec4f(0.0);
     }
-    return sum / f32(scale * scale);
+    let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let linear_output = (frame.flags & FRAME_OUTPUT_LINEAR) != 0u;
+    var straight = color.rgb / color.a;
+    if (linear_output && !linear_blend) {
+        straight = linear_from_display(straight);
+    }
+    if (linear_blend && !linear_output) {
+        straight = display_from_linear(straight);
+    }
+    let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
+    return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
+}
+
+fn linear_from_display(c: vec3f) -> vec3f {
+    let low = c / 12.92;
+    let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
+    return select(high, low, c <= vec3f(0.04045));
 }
 
 fn mask_coverage(pixel: vec2i) -> vec4f {
@@ -53,6 +120,17 @@ fn mask_coverage(pixel: vec2i) -> vec4f {
 
 fn over(top: vec4f, bottom: vec4f) -> vec4f {
     return top + bottom * (1.0 - top.a);
+}
+
+fn paint_at(pixel: vec2i) -> vec4f {
+    let scale = i32(frame.paint_scale);
+    var sum = vec4f(0.0);
+    for (var y = 0; y < scale; y++) {
+        for (var x = 0; x < scale; x++) {
+            sum += textureLoad(paint, pixel * scale + vec2i(x, y), 0);
+        }
+    }
+    return sum / f32(scale * scale);
 }
 
 @fragment
@@ -83,86 +161,8 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     return encoded(color);
 }
 
-fn encoded(color: vec4f) -> vec4f {
-    if (color.a <= 0.0) {
-        return vec4f(0.0);
-    }
-    let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
-    let linear_output = (frame.flags & FRAME_OUTPUT_LINEAR) != 0u;
-    var straight = color.rgb / color.a;
-    if (linear_output && !linear_blend) {
-        straight = linear_from_display(straight);
-    }
-    if (linear_blend && !linear_output) {
-        straight = display_from_linear(straight);
-    }
-    let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
-    return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
-}
-
-struct Frame {
-    clip_from_world: mat4x4f,
-    view_from_world: mat4x4f,
-    eye: vec4f,
-    background_top: vec4f,
-    background_bottom: vec4f,
-    picture_size: vec2f,
-    tile_origin: vec2f,
-    tile_size: vec2f,
-    depth_range: vec2f,
-    pixel_footprint: f32,
-    line_scale: f32,
-    paint_scale: f32,
-    gbuffer_scale: f32,
-    light_count: u32,
-    flags: u32,
-    line_set_count: u32,
-    line_method: u32,
-    line_sets: array<LineSet, 4>,
-    detect: Detect
-}
-
-const FRAME_LINEAR_BLEND: u32 = 1u;
-
-const FRAME_BACKGROUND: u32 = 4u;
-
-const FRAME_OUTPUT_LINEAR: u32 = 8u;
-
-const FRAME_SHOW_PAINT: u32 = 16u;
-
-const FRAME_SHOW_LINES: u32 = 32u;
-
-const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
-
-const METHOD_CONTOUR: u32 = 1u;
-
-const METHOD_REFERENCE: u32 = 2u;
-
-const METHOD_IMAGE: u32 = 5u;
-
-struct LineSet {
-    color: vec4f,
-    types: u32,
-    radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
-}
-
-struct Detect {
-    depth: f32,
-    crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
-}
-
-fn linear_from_display(c: vec3f) -> vec3f {
-    let low = c / 12.92;
-    let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
-    return select(high, low, c <= vec3f(0.04045));
-}
-
-fn display_from_linear(c: vec3f) -> vec3f {
-    let low = c * 12.92;
-    let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
-    return select(high, low, c <= vec3f(0.0031308));
+@vertex
+fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
+    let corner = vec2f(f32(index & 1u), f32(index >> 1u));
+    return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
 }

@@ -18,8 +18,67 @@ var<storage, read> morph_weights: array<f32>;
 @group(1) @binding(0)
 var<uniform> deform: Deform;
 
+struct Deform {
+    rest_first: u32,
+    world_first: u32,
+    vertex_count: u32,
+    matrix_first: u32,
+    weight_first: u32,
+    target_count: u32,
+    morph_first: u32,
+    reserved_0: u32
+}
+
+struct RestVertex {
+    x: f32,
+    y: f32,
+    z: f32,
+    normal: u32,
+    smooth_normal: u32,
+    line_width: f32,
+    joints_01: u32,
+    joints_23: u32,
+    weights_01: u32,
+    weights_23: u32
+}
+
+struct WorldVertex {
+    x: f32,
+    y: f32,
+    z: f32,
+    normal: u32,
+    smooth_normal: u32,
+    line_width: f32
+}
+
+fn octahedral_pack(n: vec3f) -> u32 {
+    let sum = max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
+    var p = n.xy / sum;
+    if (n.z < 0.0) {
+        p = (1.0 - abs(p.yx)) * sign_not_zero(p);
+    }
+    return pack2x16snorm(p);
+}
+
+fn octahedral_unpack(bits: u32) -> vec3f {
+    let p = unpack2x16snorm(bits);
+    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) {
+        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
+    }
+    return normalize(n);
+}
+
 fn offset_at(index: u32) -> vec3f {
     return vec3f(morph_offsets[index], morph_offsets[index + 1u], morph_offsets[index + 2u]);
+}
+
+fn scaled(v: vec3f) -> vec3f {
+    return v / max(max(abs(v.x), max(abs(v.y), abs(v.z))), 1e-30);
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
 }
 
 @compute @workgroup_size(64)
@@ -65,63 +124,4 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     let n_in_world = side * vec3f(dot(c_x, n), dot(c_y, n), dot(c_z, n));
     let smooth_in_world = side * vec3f(dot(c_x, smooth_n), dot(c_y, smooth_n), dot(c_z, smooth_n));
     world[deform.world_first + index] = WorldVertex(p_in_world.x, p_in_world.y, p_in_world.z, octahedral_pack(scaled(n_in_world)), octahedral_pack(scaled(smooth_in_world)), vertex.line_width);
-}
-
-fn scaled(v: vec3f) -> vec3f {
-    return v / max(max(abs(v.x), max(abs(v.y), abs(v.z))), 1e-30);
-}
-
-struct RestVertex {
-    x: f32,
-    y: f32,
-    z: f32,
-    normal: u32,
-    smooth_normal: u32,
-    line_width: f32,
-    joints_01: u32,
-    joints_23: u32,
-    weights_01: u32,
-    weights_23: u32
-}
-
-struct WorldVertex {
-    x: f32,
-    y: f32,
-    z: f32,
-    normal: u32,
-    smooth_normal: u32,
-    line_width: f32
-}
-
-struct Deform {
-    rest_first: u32,
-    world_first: u32,
-    vertex_count: u32,
-    matrix_first: u32,
-    weight_first: u32,
-    target_count: u32,
-    morph_first: u32,
-    reserved_0: u32
-}
-
-fn sign_not_zero(v: vec2f) -> vec2f {
-    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn octahedral_pack(n: vec3f) -> u32 {
-    let sum = max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
-    var p = n.xy / sum;
-    if (n.z < 0.0) {
-        p = (1.0 - abs(p.yx)) * sign_not_zero(p);
-    }
-    return pack2x16snorm(p);
-}
-
-fn octahedral_unpack(bits: u32) -> vec3f {
-    let p = unpack2x16snorm(bits);
-    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0) {
-        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
-    }
-    return normalize(n);
 }

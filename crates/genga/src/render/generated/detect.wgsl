@@ -15,8 +15,59 @@ var depths: texture_depth_2d;
 @group(0) @binding(4)
 var mask: texture_storage_2d<r32uint, write>;
 
-fn clamped(at: vec2i, size: vec2i) -> vec2i {
-    return clamp(at, vec2i(0), size - 1);
+const CREASE_GROWTH: f32 = 0.15;
+
+const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
+const LINE_CREASE: u32 = 2u;
+
+const LINE_MATERIAL: u32 = 8u;
+
+const LINE_OBJECT: u32 = 4u;
+
+const LINE_SILHOUETTE: u32 = 1u;
+
+const LINE_USER: u32 = 32u;
+
+const MASK_CREASE_SHIFT: u32 = 16u;
+
+const MASK_SILHOUETTE_SHIFT: u32 = 8u;
+
+struct Detect {
+    depth: f32,
+    crease_cos: f32,
+    identities: u32,
+    max_width_factor: f32
+}
+
+struct Frame {
+    clip_from_world: mat4x4f,
+    view_from_world: mat4x4f,
+    eye: vec4f,
+    background_top: vec4f,
+    background_bottom: vec4f,
+    picture_size: vec2f,
+    tile_origin: vec2f,
+    tile_size: vec2f,
+    depth_range: vec2f,
+    pixel_footprint: f32,
+    line_scale: f32,
+    paint_scale: f32,
+    gbuffer_scale: f32,
+    light_count: u32,
+    flags: u32,
+    line_set_count: u32,
+    line_method: u32,
+    line_sets: array<LineSet, 4>,
+    detect: Detect
+}
+
+struct LineSet {
+    color: vec4f,
+    types: u32,
+    radius: f32,
+    reserved_0: u32,
+    reserved_1: u32
 }
 
 fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32) -> f32 {
@@ -31,7 +82,11 @@ fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32) -> f32 {
     else {
         metres = difference * distance * distance / frame.depth_range.x;
     }
-    return metres / (footprint(frame, distance) * frame.line_scale);
+    return metres / (footprint(frame, distance) * max(frame.line_scale, 1.0));
+}
+
+fn clamped(at: vec2i, size: vec2i) -> vec2i {
+    return clamp(at, vec2i(0), size - 1);
 }
 
 fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
@@ -71,7 +126,7 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     let broken = min(break_in_pixels(before_c, depth_c, depth_q), break_in_pixels(after_q, depth_q, depth_c));
     let margin = broken / max(frame.detect.depth, 1e-6) - 1.0;
     if (frame.detect.depth > 0.0 && margin > 0.0) {
-        return bits | LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
+        bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
     }
     let turn = frame.detect.crease_cos - dot(normal_c.xyz, normal_q.xyz);
     if (turn > 0.0) {
@@ -80,15 +135,27 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     return bits;
 }
 
-const CREASE_GROWTH: f32 = 0.15;
+fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return mix(frame.depth_range.y, frame.depth_range.x, depth);
+    }
+    return frame.depth_range.x / max(depth, 1e-30);
+}
 
-fn strength(margin: f32) -> u32 {
-    return u32(clamp(margin, 0.0, 1.0) * 254.0) + 1u;
+fn footprint(frame: Frame, distance: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.pixel_footprint;
+    }
+    return frame.pixel_footprint * distance;
 }
 
 fn merged(a: u32, b: u32) -> u32 {
     let bytes = vec2u(65280u, 16711680u);
     return ((a | b) & 255u) | max(a & bytes.x, b & bytes.x) | max(a & bytes.y, b & bytes.y);
+}
+
+fn strength(margin: f32) -> u32 {
+    return u32(clamp(margin, 0.0, 1.0) * 254.0) + 1u;
 }
 
 @compute @workgroup_size(8, 8)
@@ -103,71 +170,4 @@ fn detect_lines(@builtin(global_invocation_id) id: vec3u) {
     let across = clamped(at + vec2i(1, 1), size);
     let bits = merged(difference(at, across, size), difference(right, below, size));
     textureStore(mask, at, vec4u(bits, 0u, 0u, 0u));
-}
-
-struct Frame {
-    clip_from_world: mat4x4f,
-    view_from_world: mat4x4f,
-    eye: vec4f,
-    background_top: vec4f,
-    background_bottom: vec4f,
-    picture_size: vec2f,
-    tile_origin: vec2f,
-    tile_size: vec2f,
-    depth_range: vec2f,
-    pixel_footprint: f32,
-    line_scale: f32,
-    paint_scale: f32,
-    gbuffer_scale: f32,
-    light_count: u32,
-    flags: u32,
-    line_set_count: u32,
-    line_method: u32,
-    line_sets: array<LineSet, 4>,
-    detect: Detect
-}
-
-const FRAME_ORTHOGRAPHIC: u32 = 2u;
-
-struct LineSet {
-    color: vec4f,
-    types: u32,
-    radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
-}
-
-struct Detect {
-    depth: f32,
-    crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
-}
-
-const MASK_SILHOUETTE_SHIFT: u32 = 8u;
-
-const MASK_CREASE_SHIFT: u32 = 16u;
-
-const LINE_SILHOUETTE: u32 = 1u;
-
-const LINE_CREASE: u32 = 2u;
-
-const LINE_OBJECT: u32 = 4u;
-
-const LINE_MATERIAL: u32 = 8u;
-
-const LINE_USER: u32 = 32u;
-
-fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return mix(frame.depth_range.y, frame.depth_range.x, depth);
-    }
-    return frame.depth_range.x / max(depth, 1e-30);
-}
-
-fn footprint(frame: Frame, distance: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return frame.pixel_footprint;
-    }
-    return frame.pixel_footprint * distance;
 }
