@@ -4,11 +4,13 @@
 //! The tests need a graphics adapter; Mesa's lavapipe is enough. Without one they fail.
 
 pub mod compare;
+pub mod edges;
 pub mod eye;
 pub mod gpu;
 pub mod pixels;
 pub mod reference;
 pub mod scenes;
+pub mod snapshots;
 
 pub use compare::{Difference, Tolerance, difference};
 pub use eye::Eye;

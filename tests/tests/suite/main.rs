@@ -2,9 +2,15 @@
 //! pipelines compile once.
 
 mod color;
+mod edges;
+mod errors;
 mod geometry;
+mod lines;
+mod outlines;
 mod pipelines;
 mod ramp;
+mod repeat;
 mod selectors;
 mod shaders;
+mod snapshots;
 mod transparency;

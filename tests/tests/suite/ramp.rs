@@ -1,5 +1,6 @@
 //! Where tones end on a surface, compared with N·L in f64.
 
+use std::f64::consts::FRAC_PI_8;
 use std::sync::Arc;
 
 use genga::render::{Picture, View};
@@ -60,7 +61,7 @@ fn assert_tones(
     let mut counts = vec![0; stops.len()];
     for (x, y) in picture.places() {
         let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-        let around = (0..16).map(|i| middle + DVec2::from_angle(f64::from(i) * 0.3927));
+        let around = (0..16).map(|i| middle + DVec2::from_angle(f64::from(i) * FRAC_PI_8));
         let seen: Option<Vec<u8>> =
             around.chain([middle]).map(|p| ramp_coordinate(p).map(|t| tone_at(stops, t))).collect();
         let Some(seen) = seen else { continue };
@@ -103,8 +104,7 @@ fn a_camera_light_turns_with_the_camera() {
     let mut view = ball_view();
     let turn = glam::Affine3A::from_rotation_y(1.1);
     view.camera.world_from_camera = turn * view.camera.world_from_camera;
-    let style = tones(&THREE, "");
-    let mut pinned = style.clone();
+    let mut pinned = tones(&THREE, "");
     pinned.light.pinned_to = genga::style::PinnedTo::Camera;
     let from_front = draw(&ball().build(), &pinned, &ball_view());
     let from_side = draw(&ball().build(), &pinned, &view);

@@ -176,7 +176,7 @@ fn half_opaque_surfaces_enter_the_ids() {
 #[test]
 fn masks_cut_holes_into_everything() {
     let mut scene = Builder::new();
-    let rgba = |x: u32, y: u32| [10, 200, 30, if (x + y) % 2 == 0 { 200 } else { 120 }];
+    let rgba = |x: u32, y: u32| [10, 200, 30, if (x + y).is_multiple_of(2) { 200 } else { 120 }];
     let base_color_texture = Some(scene.texture(image(4, 4, rgba), nearest()));
     let material = scene.material(Material {
         base_color_texture,
