@@ -297,7 +297,6 @@ fn tones_multiply_or_replace() {
 }
 
 #[test]
-#[ignore = "a known fault: the part that is not replaced is multiplied with the tone"]
 fn a_tones_alpha_is_how_far_it_replaces() {
     let half = 128.0 / 255.0;
     assert_tone("#3366ff80", "replace", [0, 1, 2].map(|c| BASE[c] + (TONE[c] - BASE[c]) * half));

@@ -103,7 +103,6 @@ fn tiles_equal_the_whole() {
 }
 
 #[test]
-#[ignore = "a known fault: depth textures cannot be copied in part"]
 fn tiles_bring_distances_back() {
     let (scene, layers) = (crowd(), [LayerKind::Depth]);
     for orthographic in [false, true] {

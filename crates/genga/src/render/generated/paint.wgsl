@@ -159,8 +159,8 @@ struct MaterialSample {
 }
 
 struct RampColor {
-    color: vec3f,
-    replace: f32
+    factor: vec3f,
+    added: vec3f
 }
 
 struct Rule {
@@ -221,10 +221,6 @@ struct VertexInput {
     color: vec4f,
     @builtin(instance_index)
     draw: u32
-}
-
-fn apply_ramp(base: vec3f, ramp: RampColor) -> vec3f {
-    return mix(base * ramp.color, ramp.color, ramp.replace);
 }
 
 fn display_from_linear(c: vec3f) -> vec3f {
@@ -362,8 +358,8 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
         }
         if (weight > 0.0) {
             let next = tone_color(look, i);
-            result.color = mix(result.color, next.color, weight);
-            result.replace = mix(result.replace, next.replace, weight);
+            result.factor = mix(result.factor, next.factor, weight);
+            result.added = mix(result.added, next.added, weight);
         }
         previous_at = at;
     }
@@ -433,9 +429,9 @@ fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
 fn tone_color(look: u32, index: u32) -> RampColor {
     let color = looks[look].tones[index].color;
     if (looks[look].tones[index].replace > 0.5) {
-        return RampColor(color.rgb, color.a);
+        return RampColor(vec3f(1.0 - color.a), color.rgb * color.a);
     }
-    return RampColor(mix(vec3f(1.0), color.rgb, color.a), 0.0);
+    return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
@@ -489,7 +485,8 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
             color = base * ramp_picture(looks[look_index].ramp_row, t);
         }
         else {
-            color = apply_ramp(base, ramp_color(look_index, t, t_width));
+            let ramp = ramp_color(look_index, t, t_width);
+            color = base * ramp.factor + ramp.added;
         }
     }
     if (any(material.emissive > vec3f(0.0))) {
