@@ -1,5 +1,6 @@
 //! `cargo xtask fuzz`: each fuzz target for a while.
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -30,8 +31,20 @@ pub(crate) fn fuzz(root: &Path, target: Option<&str>, seconds: u32) -> Result<()
     }
     let mut failures = Vec::new();
     for target in &targets {
+        // What is found goes to the corpus; the seeds are committed and only read.
+        let corpus = root.join("fuzz/corpus").join(target);
+        fs::create_dir_all(&corpus).map_err(Error::io("cannot make the folder", &corpus))?;
+        let seeds = match target.as_str() {
+            "style_file" => root.join("assets/styles"),
+            _ => root.join("fuzz/seeds").join(target),
+        };
         let mut command = Command::new("rustup");
-        command.current_dir(root).args(["run", "nightly", "cargo", "fuzz", "run", target, "--"]);
+        command.current_dir(root).args(["run", "nightly", "cargo", "fuzz", "run", target]);
+        command.arg(&corpus);
+        if seeds.is_dir() {
+            command.arg(&seeds);
+        }
+        command.arg("--");
         if let Err(error) = run(command.arg(format!("-max_total_time={seconds}"))) {
             failures.push(error.to_string());
         }
