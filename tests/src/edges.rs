@@ -26,7 +26,7 @@ pub struct Figures {
     pub hidden: usize,
     /// Places of visible edges that were looked at, half a pixel apart.
     pub places: usize,
-    /// Those with at least half ink.
+    /// Those beside a pixel with at least half ink.
     pub covered: usize,
 }
 
@@ -135,7 +135,11 @@ pub fn measure(scene: &Scene, method: &str, width: f64, view: &View) -> Figures 
     }
     for p_px in visible.iter().filter(|p_px| inside(**p_px)) {
         figures.places += 1;
-        figures.covered += usize::from(picture.ink(p_px.x as u32, p_px.y as u32) >= 128);
+        // The four pixels whose middles are nearest; the line passes one of them within 0.36 px.
+        let first = (p_px - 0.5).as_uvec2();
+        let around = [(0, 0), (1, 0), (0, 1), (1, 1)];
+        let ink = around.map(|(x, y)| picture.ink(first.x + x, first.y + y));
+        figures.covered += usize::from(ink.into_iter().any(|ink| ink >= 128));
     }
     for (x, y) in picture.places().filter(|&(x, y)| picture.ink(x, y) >= 26) {
         let p_px = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
