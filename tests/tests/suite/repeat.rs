@@ -115,7 +115,6 @@ fn tiles_bring_distances_back() {
 }
 
 #[test]
-#[ignore = "a known fault: derivatives are taken over pairs of pixels that begin at the tile"]
 fn tiles_keep_soft_edges() {
     // Rims and tones are antialiased by derivatives.
     let scene = model("teapot-on-box");
@@ -153,7 +152,6 @@ fn another_picture_between_changes_nothing() {
 }
 
 #[test]
-#[ignore = "a known fault: pictures of one size share their targets while layers are read"]
 fn two_threads_may_draw_at_once() {
     let shared = shared();
     let _turn = shared.turn();

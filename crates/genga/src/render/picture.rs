@@ -6,7 +6,7 @@ use super::{
     gpu::{readback::TextureRead, scope, timing::Timer},
     prepare::Prepared,
     renderer::{Renderer, check_view},
-    targets::{Target, Targets, target},
+    targets::{Target, target},
     view::{Projected, View},
 };
 
@@ -159,7 +159,34 @@ impl Renderer {
         tile: Tile,
         kept: Tile,
     ) -> Result<(), RenderError> {
-        let device = &self.device;
+        let reads = self.record_tile(picture, prepared, view, tile, kept)?;
+        let mut reads = reads.into_iter();
+        if let Some(read) = reads.next() {
+            let bytes = read.finish(&self.device).await?;
+            copy_rows(&mut picture.rgba, picture.width, &bytes, kept, 4);
+        }
+        let texels = Texels {
+            projected: Projected::new(&view.camera, view.size, prepared.bounds),
+            offset: [kept.origin[0] - tile.origin[0], kept.origin[1] - tile.origin[1]],
+            kept,
+            scale: gbuffer_scale(prepared, view),
+            width: tile.size[0] * gbuffer_scale(prepared, view),
+        };
+        for (layer, read) in picture.layers.iter_mut().zip(reads) {
+            texels.copy(layer, picture.width, &read.finish(&self.device).await?);
+        }
+        Ok(())
+    }
+
+    /// Submits everything that a tile needs: reads of the picture, then of each layer.
+    fn record_tile(
+        &self,
+        picture: &Picture,
+        prepared: &Prepared,
+        view: &View,
+        tile: Tile,
+        kept: Tile,
+    ) -> Result<Vec<TextureRead>, RenderError> {
         let whole = Output {
             background: view.background,
             paint: true,
@@ -167,132 +194,105 @@ impl Renderer {
             linear: false,
             straight: true,
         };
+        let device = &self.device;
         let offset = [kept.origin[0] - tile.origin[0], kept.origin[1] - tile.origin[1]];
-        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
-        let (targets, read) = scope::checked(device, || {
+        let all = wgpu::TextureAspect::All;
+        let _turn = self.turn();
+        scope::checked(device, || {
             let mut encoder = self.encoder("tile");
             let mut timer = Timer::off();
             let targets = self.draw_tile(&mut encoder, prepared, view, tile, whole, &mut timer);
             let shown = color_target(device, tile.size);
-            let output = (&shown.view, shown.texture.format());
-            self.composite(&mut encoder, prepared, &targets, output, &mut timer);
-            let all = wgpu::TextureAspect::All;
-            let read =
-                TextureRead::record(device, &mut encoder, &shown.texture, all, offset, kept.size);
-            self.queue.submit([encoder.finish()]);
-            Ok((targets, read))
-        })?;
-        let bytes = read.finish(device).await?;
-        copy_rows(&mut picture.rgba, picture.width, &bytes, kept, 4);
-
-        let gbuffer_scale = gbuffer_scale(prepared, view);
-        for layer in &mut picture.layers {
-            let (paint, lines) = match layer.kind {
-                LayerKind::Color => (true, false),
-                LayerKind::Lines => (false, true),
-                LayerKind::Depth | LayerKind::Normal | LayerKind::Ids => {
-                    let source = GBufferSource {
-                        renderer: self,
-                        targets: &targets,
-                        projected: &projected,
-                        offset,
-                        kept,
-                        scale: gbuffer_scale,
-                    };
-                    source.read(layer, picture.width).await?;
-                    continue;
-                }
-            };
-            let output = Output { background: false, paint, lines, ..whole };
-            let read = scope::checked(device, || {
-                self.write_frame(prepared, view, &projected, tile, output);
-                let mut encoder = self.encoder("layer");
-                let shown = color_target(device, tile.size);
+            let read_shown = |encoder: &mut wgpu::CommandEncoder| {
                 let output = (&shown.view, shown.texture.format());
-                self.composite(&mut encoder, prepared, &targets, output, &mut Timer::off());
-                let all = wgpu::TextureAspect::All;
-                let read = TextureRead::record(
-                    device,
-                    &mut encoder,
-                    &shown.texture,
-                    all,
-                    offset,
-                    kept.size,
-                );
+                self.composite(encoder, prepared, &targets, output, &mut Timer::off());
+                TextureRead::record(device, encoder, &shown.texture, all, offset, kept.size)
+            };
+            let mut reads = vec![read_shown(&mut encoder)];
+            self.queue.submit([encoder.finish()]);
+            for layer in &picture.layers {
+                let mut encoder = self.encoder("layer");
+                let output = Output { background: false, ..whole };
+                reads.push(match layer.kind {
+                    LayerKind::Color | LayerKind::Lines => {
+                        let paint = layer.kind == LayerKind::Color;
+                        let output = Output { paint, lines: !paint, ..output };
+                        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+                        self.write_frame(prepared, view, &projected, tile, output);
+                        read_shown(&mut encoder)
+                    }
+                    LayerKind::Depth => {
+                        // Depth textures can only be copied whole.
+                        let aspect = wgpu::TextureAspect::DepthOnly;
+                        read_whole(device, &mut encoder, &targets.depth.texture, aspect)
+                    }
+                    LayerKind::Normal => {
+                        read_whole(device, &mut encoder, &targets.normal.texture, all)
+                    }
+                    LayerKind::Ids => read_whole(device, &mut encoder, &targets.ids.texture, all),
+                });
                 self.queue.submit([encoder.finish()]);
-                Ok(read)
-            })?;
-            let bytes = read.finish(device).await?;
-            if let LayerData::Rgba8(rgba) = &mut layer.data {
-                copy_rows(rgba, picture.width, &bytes, kept, 4);
             }
-        }
-        Ok(())
+            Ok(reads)
+        })
     }
 }
 
-/// Where the data layers of one tile come from.
-struct GBufferSource<'a> {
-    renderer: &'a Renderer,
-    targets: &'a Targets,
-    projected: &'a Projected,
+fn read_whole(
+    device: &wgpu::Device,
+    encoder: &mut wgpu::CommandEncoder,
+    texture: &wgpu::Texture,
+    aspect: wgpu::TextureAspect,
+) -> TextureRead {
+    let size = [texture.width(), texture.height()];
+    TextureRead::record(device, encoder, texture, aspect, [0, 0], size)
+}
+
+/// Where the texels of one tile's layers lie.
+struct Texels {
+    projected: Projected,
+    /// The kept part in the tile, in pixels.
     offset: [u32; 2],
     kept: Tile,
     /// G-buffer texels per pixel.
     scale: u32,
+    /// G-buffer texels in a row.
+    width: u32,
 }
 
-impl GBufferSource<'_> {
-    /// The top-left texel of each pixel of the part that is kept, `N` bytes each.
-    async fn texels<const N: usize>(
-        &self,
-        texture: &wgpu::Texture,
-        aspect: wgpu::TextureAspect,
-    ) -> Result<Vec<[u8; N]>, RenderError> {
-        let device = &self.renderer.device;
-        let size = [texture.width(), texture.height()];
-        let read = scope::checked(device, || {
-            let mut encoder = self.renderer.encoder("layer");
-            // Depth textures can only be copied whole.
-            let read = TextureRead::record(device, &mut encoder, texture, aspect, [0, 0], size);
-            self.renderer.queue.submit([encoder.finish()]);
-            Ok(read)
-        })?;
-        let bytes = read.finish(device).await?;
+impl Texels {
+    /// The top-left G-buffer texel of each pixel of the part that is kept, `N` bytes each.
+    fn pick<'a, const N: usize>(&self, bytes: &'a [u8]) -> impl Iterator<Item = &'a [u8; N]> {
         let (texels, _) = bytes.as_chunks::<N>();
-        let mut kept = Vec::with_capacity((self.kept.size[0] * self.kept.size[1]) as usize);
-        for y in 0..self.kept.size[1] {
-            let row = ((self.offset[1] + y) * self.scale * size[0]) as usize;
-            for x in 0..self.kept.size[0] {
-                kept.push(texels[row + ((self.offset[0] + x) * self.scale) as usize]);
-            }
-        }
-        Ok(kept)
+        let (offset, size, scale, width) = (self.offset, self.kept.size, self.scale, self.width);
+        (0..size[1]).flat_map(move |y| {
+            let row = ((offset[1] + y) * scale * width) as usize;
+            (0..size[0]).map(move |x| &texels[row + ((offset[0] + x) * scale) as usize])
+        })
     }
 
-    async fn read(&self, layer: &mut Layer, picture_width: u32) -> Result<(), RenderError> {
-        let all = wgpu::TextureAspect::All;
+    /// Copies what was read to its place in a layer.
+    fn copy(&self, layer: &mut Layer, picture_width: u32, bytes: &[u8]) {
         match (&mut layer.data, layer.kind) {
+            (LayerData::Rgba8(rgba), _) => copy_rows(rgba, picture_width, bytes, self.kept, 4),
             (LayerData::F32 { values, .. }, LayerKind::Depth) => {
-                let aspect = wgpu::TextureAspect::DepthOnly;
-                let texels = self.texels::<4>(&self.targets.depth.texture, aspect).await?;
-                let distances: Vec<f32> =
-                    texels.iter().map(|&t| self.distance(f32::from_le_bytes(t))).collect();
+                let distances: Vec<f32> = self
+                    .pick::<4>(bytes)
+                    .map(|texel| self.distance(f32::from_le_bytes(*texel)))
+                    .collect();
                 copy_rows(values, picture_width, &distances, self.kept, 1);
             }
             (LayerData::F32 { values, .. }, _) => {
-                let texels = self.texels::<8>(&self.targets.normal.texture, all).await?;
                 let half = |a: u8, b: u8| half::f16::from_le_bytes([a, b]).to_f32();
-                let normals: Vec<f32> = texels
-                    .iter()
+                let normals: Vec<f32> = self
+                    .pick::<8>(bytes)
                     .flat_map(|t| [half(t[0], t[1]), half(t[2], t[3]), half(t[4], t[5])])
                     .collect();
                 copy_rows(values, picture_width, &normals, self.kept, 3);
             }
             (LayerData::U32 { values, .. }, _) => {
-                let texels = self.texels::<8>(&self.targets.ids.texture, all).await?;
-                let ids: Vec<u32> = texels
-                    .iter()
+                let ids: Vec<u32> = self
+                    .pick::<8>(bytes)
                     .flat_map(|t| {
                         let object = u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
                         let material = u32::from(u16::from_le_bytes([t[4], t[5]]));
@@ -301,9 +301,7 @@ impl GBufferSource<'_> {
                     .collect();
                 copy_rows(values, picture_width, &ids, self.kept, 3);
             }
-            (LayerData::Rgba8(_), _) => {}
         }
-        Ok(())
     }
 
     /// Metres along the camera's axis; infinite for the cleared value.
@@ -345,12 +343,14 @@ fn tiles(size: [u32; 2], limit: u32, apron: u32) -> Vec<(Tile, Tile)> {
         if length <= limit {
             return vec![(0, length, 0, length)];
         }
-        let step = limit.saturating_sub(2 * apron).max(limit / 4).max(1);
+        let step = limit.saturating_sub(2 * apron + 1).max(limit / 4).max(1);
         (0..length)
             .step_by(step as usize)
             .map(|start| {
                 let end = (start + step).min(length);
-                (start.saturating_sub(apron), (end + apron).min(length), start, end)
+                // Tiles begin at even pixels, since derivatives are taken over pairs of pixels.
+                let drawn = start.saturating_sub(apron) & !1;
+                (drawn, (end + apron).min(length), start, end)
             })
             .collect()
     };
@@ -376,10 +376,10 @@ mod tests {
         for (size, limit, apron) in [([300, 70], 64, 6), ([64, 64], 64, 6), ([1, 500], 100, 40)] {
             let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
             for (drawn, kept) in tiles(size, limit, apron) {
-                assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron));
+                assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron + 1));
                 for (axis, side) in size.into_iter().enumerate() {
-                    let low = kept.origin[axis].saturating_sub(apron).max(drawn.origin[axis]);
-                    assert_eq!(low, drawn.origin[axis]);
+                    let low = kept.origin[axis].saturating_sub(apron);
+                    assert!(drawn.origin[axis] <= low && drawn.origin[axis] % 2 == 0);
                     assert!(drawn.origin[axis] + drawn.size[axis] <= side);
                 }
                 for y in 0..kept.size[1] {

@@ -1,6 +1,6 @@
 //! The frame, as one list of passes.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{
     RenderError,
@@ -43,6 +43,8 @@ pub struct Renderer {
     plain: PlainPass,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
+    /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
+    turn: Mutex<()>,
 }
 
 /// What [`Renderer::time_frame`] measures.
@@ -99,6 +101,7 @@ impl Renderer {
                 plain: PlainPass::new(device, &layouts),
                 layouts,
                 targets: Mutex::new(None),
+                turn: Mutex::new(()),
             })
         })
     }
@@ -160,6 +163,7 @@ impl Renderer {
             linear: is_linear(format),
             straight: false,
         };
+        let _turn = self.turn();
         scope::checked(&self.device, || {
             let tile = Tile { origin: [0, 0], size: view.size };
             let mut encoder = self.encoder("frame");
@@ -258,49 +262,17 @@ impl Renderer {
         let limit = self.device.limits().max_texture_dimension_2d / view.supersample.clamp(1, 4);
         check_view(view, limit)?;
         let device = &self.device;
-        let output = Output {
-            background: view.background,
-            paint: true,
-            lines: true,
-            linear: false,
-            straight: false,
-        };
-        let tile = Tile { origin: [0, 0], size: view.size };
         let mut timer = Timer::new(device);
-        let mut encoder = self.encoder("timed frame");
-        let (commands, timestamps) = scope::checked(device, || {
-            self.deform.run(&mut encoder, prepared, &mut timer);
-            match workload {
-                Workload::Styled => {
-                    let targets =
-                        self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
-                    let shown = super::picture::color_target(device, view.size);
-                    let format = shown.texture.format();
-                    self.composite(
-                        &mut encoder,
-                        prepared,
-                        &targets,
-                        (&shown.view, format),
-                        &mut timer,
-                    );
-                }
-                Workload::Plain => {
-                    let projected = Projected::new(&view.camera, view.size, prepared.bounds);
-                    self.write_frame(prepared, view, &projected, tile, output);
-                    let targets = PlainTargets::new(device, view.size, view.supersample);
-                    let eye = projected.eye;
-                    self.plain.run(device, &mut encoder, prepared, &targets, eye, &mut timer);
-                }
-            }
-            let timestamps = timer.resolve(device, &mut encoder);
-            Ok((encoder.finish(), timestamps))
-        })?;
-        let start = std::time::Instant::now();
-        self.queue.submit([commands]);
-        device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|e| RenderError::DeviceLost { message: e.to_string() })?;
-        let wall_ms = start.elapsed().as_secs_f64() * 1e3;
+        let (timestamps, wall_ms) = {
+            let _turn = self.turn();
+            let commands = self.timed_commands(prepared, view, workload, &mut timer)?;
+            let start = std::time::Instant::now();
+            self.queue.submit([commands.0]);
+            device
+                .poll(wgpu::PollType::wait_indefinitely())
+                .map_err(|e| RenderError::DeviceLost { message: e.to_string() })?;
+            (commands.1, start.elapsed().as_secs_f64() * 1e3)
+        };
         let (passes, gpu_ms) = match timestamps {
             Some(buffer) => {
                 let (passes, total) = timer.read(device, &self.queue, &buffer).await?;
@@ -313,6 +285,51 @@ impl Renderer {
             .map(|(name, milliseconds)| PassTime { name, milliseconds })
             .collect();
         Ok(FrameTimes { passes, gpu_ms, wall_ms })
+    }
+
+    /// The commands of a measured frame, and the buffer that its timestamps end in.
+    fn timed_commands(
+        &self,
+        prepared: &Prepared,
+        view: &View,
+        workload: Workload,
+        timer: &mut Timer,
+    ) -> Result<(wgpu::CommandBuffer, Option<wgpu::Buffer>), RenderError> {
+        let device = &self.device;
+        let output = Output {
+            background: view.background,
+            paint: true,
+            lines: true,
+            linear: false,
+            straight: false,
+        };
+        let tile = Tile { origin: [0, 0], size: view.size };
+        let mut encoder = self.encoder("timed frame");
+        scope::checked(device, || {
+            self.deform.run(&mut encoder, prepared, timer);
+            match workload {
+                Workload::Styled => {
+                    let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, timer);
+                    let shown = super::picture::color_target(device, view.size);
+                    let format = shown.texture.format();
+                    self.composite(&mut encoder, prepared, &targets, (&shown.view, format), timer);
+                }
+                Workload::Plain => {
+                    let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+                    self.write_frame(prepared, view, &projected, tile, output);
+                    let targets = PlainTargets::new(device, view.size, view.supersample);
+                    let eye = projected.eye;
+                    self.plain.run(device, &mut encoder, prepared, &targets, eye, timer);
+                }
+            }
+            let timestamps = timer.resolve(device, &mut encoder);
+            Ok((encoder.finish(), timestamps))
+        })
+    }
+
+    /// Waits until no other thread records a picture.
+    pub(crate) fn turn(&self) -> MutexGuard<'_, ()> {
+        self.turn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn targets_for(&self, size: TargetSize) -> Arc<Targets> {
