@@ -65,7 +65,6 @@ pub(crate) fn frame_values(
     let flag = |on: bool, bit: u32| if on { bit } else { 0 };
     Frame {
         clip_from_world: projected.clip_from_world,
-        view_from_world: projected.view_from_world,
         eye: projected.eye,
         background_top: top,
         background_bottom: bottom,

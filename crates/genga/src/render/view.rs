@@ -222,7 +222,6 @@ impl View {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projected {
     pub(crate) clip_from_world: Mat4,
-    pub(crate) view_from_world: Mat4,
     /// See `Frame::eye`.
     pub(crate) eye: Vec4,
     /// Near, far (orthographic only).
@@ -249,7 +248,6 @@ impl Projected {
                 let eye = Vec3::from(camera.world_from_camera.translation);
                 Self {
                     clip_from_world: clip_from_view * view_from_world,
-                    view_from_world,
                     eye: eye.extend(1.0),
                     depth_range: Vec2::new(near, f32::MAX),
                     pixel_footprint: 2.0 * tan_y / height,
@@ -274,7 +272,6 @@ impl Projected {
                 );
                 Self {
                     clip_from_world: clip_from_view * view_from_world,
-                    view_from_world,
                     eye: back.extend(0.0),
                     depth_range: Vec2::new(near, far),
                     pixel_footprint: metres / height,

@@ -63,7 +63,6 @@ struct Draw {
 
 struct Frame {
     clip_from_world: mat4x4f,
-    view_from_world: mat4x4f,
     eye: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,

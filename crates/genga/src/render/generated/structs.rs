@@ -189,7 +189,6 @@ pub(crate) const FRAME_SHOW_PAINT: u32 = 16u32;
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Frame {
     pub(crate) clip_from_world: glam::Mat4,
-    pub(crate) view_from_world: glam::Mat4,
     pub(crate) eye: glam::Vec4,
     pub(crate) background_top: glam::Vec4,
     pub(crate) background_bottom: glam::Vec4,
@@ -209,81 +208,77 @@ pub(crate) struct Frame {
     pub(crate) detect: Detect,
 }
 const _: () = assert!(
-    std::mem::size_of::< Frame > () == 384, "size of Frame does not match WGSL"
+    std::mem::size_of::< Frame > () == 320, "size of Frame does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, clip_from_world) == 0,
     "offset of Frame.clip_from_world does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, view_from_world) == 64,
-    "offset of Frame.view_from_world does not match WGSL"
+    std::mem::offset_of!(Frame, eye) == 64, "offset of Frame.eye does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, eye) == 128, "offset of Frame.eye does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Frame, background_top) == 144,
+    std::mem::offset_of!(Frame, background_top) == 80,
     "offset of Frame.background_top does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, background_bottom) == 160,
+    std::mem::offset_of!(Frame, background_bottom) == 96,
     "offset of Frame.background_bottom does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, picture_size) == 176,
+    std::mem::offset_of!(Frame, picture_size) == 112,
     "offset of Frame.picture_size does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, tile_origin) == 184,
+    std::mem::offset_of!(Frame, tile_origin) == 120,
     "offset of Frame.tile_origin does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, tile_size) == 192,
+    std::mem::offset_of!(Frame, tile_size) == 128,
     "offset of Frame.tile_size does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, depth_range) == 200,
+    std::mem::offset_of!(Frame, depth_range) == 136,
     "offset of Frame.depth_range does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, pixel_footprint) == 208,
+    std::mem::offset_of!(Frame, pixel_footprint) == 144,
     "offset of Frame.pixel_footprint does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_scale) == 212,
+    std::mem::offset_of!(Frame, line_scale) == 148,
     "offset of Frame.line_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, paint_scale) == 216,
+    std::mem::offset_of!(Frame, paint_scale) == 152,
     "offset of Frame.paint_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, gbuffer_scale) == 220,
+    std::mem::offset_of!(Frame, gbuffer_scale) == 156,
     "offset of Frame.gbuffer_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, light_count) == 224,
+    std::mem::offset_of!(Frame, light_count) == 160,
     "offset of Frame.light_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, flags) == 228,
+    std::mem::offset_of!(Frame, flags) == 164,
     "offset of Frame.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_set_count) == 232,
+    std::mem::offset_of!(Frame, line_set_count) == 168,
     "offset of Frame.line_set_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_method) == 236,
+    std::mem::offset_of!(Frame, line_method) == 172,
     "offset of Frame.line_method does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_sets) == 240,
+    std::mem::offset_of!(Frame, line_sets) == 176,
     "offset of Frame.line_sets does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, detect) == 368,
+    std::mem::offset_of!(Frame, detect) == 304,
     "offset of Frame.detect does not match WGSL"
 );
 pub(crate) const LIGHT_DIRECTIONAL: u32 = 0u32;

@@ -48,6 +48,8 @@ pub(crate) struct GeometryBuilder {
     pub(crate) edges: Pages<Edge>,
     pub(crate) morph: Pages<f32>,
     pub(crate) warnings: Vec<String>,
+    /// Largest factor on line widths of any vertex, at least 1.
+    pub(crate) max_line_width: f32,
     max_vertices: usize,
     max_indices: usize,
 }
@@ -64,6 +66,7 @@ impl GeometryBuilder {
             edges: Pages::new(),
             morph: Pages::new(),
             warnings: Vec::new(),
+            max_line_width: 1.0,
             max_vertices: MAX_CHUNK_VERTICES,
             max_indices: MAX_CHUNK_INDICES,
         }
@@ -113,13 +116,15 @@ impl GeometryBuilder {
             let joints = primitive.joints.get(v).copied().unwrap_or_default().map(u32::from);
             let weights = primitive.weights.get(v).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
             let weights = weights.map(|w| (w.clamp(0.0, 1.0) * 65535.0).round() as u32);
+            let line_width = primitive.line_widths.get(v).map_or(1.0, |w| w.clamp(0.0, 100.0));
+            self.max_line_width = self.max_line_width.max(line_width);
             rest.push(RestVertex {
                 x: p.x,
                 y: p.y,
                 z: p.z,
                 normal: octahedral_pack(primitive.normals[v]),
                 smooth_normal: octahedral_pack(smooth[v]),
-                line_width: primitive.line_widths.get(v).map_or(1.0, |w| w.clamp(0.0, 100.0)),
+                line_width,
                 joints_01: joints[0] | joints[1] << 16,
                 joints_23: joints[2] | joints[3] << 16,
                 weights_01: weights[0] | weights[1] << 16,

@@ -425,7 +425,7 @@ impl<'a> Builder<'a> {
                 lights.len()
             ));
         }
-        let max_width_factor = self.looks.max_width_factor();
+        let max_width_factor = self.looks.max_width_factor() * self.geometry.max_line_width;
         warnings.extend(self.looks.warnings);
         Prepared {
             style: self.style.clone(),
