@@ -25,8 +25,9 @@ impl Shared {
 
 static SHARED: LazyLock<Result<Shared, String>> = LazyLock::new(|| {
     let gpu = pollster::block_on(Gpu::headless(&GpuOptions::default()))
-        .map_err(|error| error.to_string())?;
-    let renderer = Renderer::new(&gpu.device, &gpu.queue).map_err(|error| error.to_string())?;
+        .map_err(|error| format!("the picture tests need a graphics adapter: {error}"))?;
+    let renderer = Renderer::new(&gpu.device, &gpu.queue)
+        .map_err(|error| format!("the renderer cannot be made: {error}"))?;
     Ok(Shared { gpu, renderer, turn: Mutex::new(()) })
 });
 
@@ -38,7 +39,7 @@ static SHARED: LazyLock<Result<Shared, String>> = LazyLock::new(|| {
 pub fn shared() -> &'static Shared {
     match &*SHARED {
         Ok(shared) => shared,
-        Err(reason) => panic!("the picture tests need a graphics adapter: {reason}"),
+        Err(reason) => panic!("{reason}"),
     }
 }
 

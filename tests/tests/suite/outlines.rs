@@ -119,6 +119,24 @@ fn a_hulls_width_is_the_lines_width() {
 }
 
 #[test]
+fn a_hulls_width_can_be_in_metres() {
+    let scene = object(shapes::uv_sphere(64, 32, 1.0), Transform::default());
+    let orbit =
+        Orbit { azimuth_deg: 0.0, elevation_deg: 0.0, orthographic: true, ..Orbit::default() };
+    let view = orbit_view(&scene, &orbit, [128, 128]);
+    let metres_per_pixel = genga_tests::Eye::new(&view).footprint(1.0);
+    for width_m in [0.02, 0.08] {
+        let style = style(&format!(
+            "[paint]\nbase = \"#ffffff\"\n[lines]\nmethod = \"hull\"\nhull.width_m = {width_m}"
+        ));
+        let picture = draw(&scene, &style, &view);
+        let row: f64 = (0..64).map(|x| 1.0 - f64::from(picture.at(x, 64)[0]) / 255.0).sum();
+        let expected = width_m / metres_per_pixel;
+        assert!((row - expected).abs() < 0.25, "{row} px, not {expected}");
+    }
+}
+
+#[test]
 fn a_hull_without_width_fills_nothing() {
     let scene = object(shapes::uv_sphere(24, 12, 1.0), Transform::default());
     let orbit = Orbit::default();

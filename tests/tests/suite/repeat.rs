@@ -29,8 +29,7 @@ fn crowd() -> Scene {
 }
 
 fn picture(scene: &Scene, style: &Style, view: &View, max_texels: u32) -> Picture {
-    let layers = [LayerKind::Color, LayerKind::Normal, LayerKind::Ids, LayerKind::Lines];
-    layered(scene, style, view, max_texels, &layers)
+    layered(scene, style, view, max_texels, &LayerKind::ALL)
 }
 
 fn layered(
@@ -99,18 +98,6 @@ fn tiles_equal_the_whole() {
             let tiled = picture(&scene, &style, &view, 160 * supersample);
             assert_same(&whole, &tiled, &format!("{method}, {supersample} texels"));
         }
-    }
-}
-
-#[test]
-fn tiles_bring_distances_back() {
-    let (scene, layers) = (crowd(), [LayerKind::Depth]);
-    for orthographic in [false, true] {
-        let orbit = Orbit { orthographic, ..Orbit::default() };
-        let view = View { supersample: 1, ..orbit_view(&scene, &orbit, [201, 167]) };
-        let whole = layered(&scene, &lined("none"), &view, 4096, &layers);
-        let tiled = layered(&scene, &lined("none"), &view, 160, &layers);
-        assert_same(&whole, &tiled, "distances");
     }
 }
 

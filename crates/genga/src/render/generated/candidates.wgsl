@@ -177,7 +177,7 @@ struct WorldVertex {
 fn append(line: Line, t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32) {
     let slot = atomicAdd(&arguments[4], 1u);
     if (slot < arrayLength(&segments)) {
-        segments[slot] = Segment(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), width_0, width_1, range.draw, sets, 0u, 0u);
+        segments[slot] = Segment(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), width_0 * mix(line.width_a, line.width_b, t0), width_1 * mix(line.width_a, line.width_b, t1), range.draw, sets, 0u, 0u);
     }
 }
 
@@ -247,7 +247,7 @@ fn look_up(line: Line, t: f32) -> Found {
         return nothing;
     }
     let owner = owner_width(p_px, mix(line.depth_a, line.depth_b, t), draws[range.draw].object_id);
-    let width = sample.strength * owner * mix(line.width_a, line.width_b, t);
+    let width = sample.strength * owner;
     if (width <= 0.0) {
         return nothing;
     }

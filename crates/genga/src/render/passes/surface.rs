@@ -98,7 +98,7 @@ impl SurfacePipelines {
                         array_stride: size_of::<VertexAttributes>() as u64,
                         step_mode: wgpu::VertexStepMode::Vertex,
                         attributes: &wgpu::vertex_attr_array![
-                            4 => Float32x2, 5 => Float32x2, 6 => Unorm8x4
+                            4 => Float32x2, 5 => Float32x2, 6 => Unorm16x4
                         ],
                     },
                 ],

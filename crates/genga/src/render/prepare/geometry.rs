@@ -15,8 +15,8 @@ use crate::scene::Primitive;
 pub(crate) struct VertexAttributes {
     pub(crate) uv0: [f32; 2],
     pub(crate) uv1: [f32; 2],
-    /// Unorm8 RGBA.
-    pub(crate) color: [u8; 4],
+    /// Linear unorm16 RGBA: 8 bits would show in dark tones.
+    pub(crate) color: [u16; 4],
 }
 
 /// A part of a primitive that fits one page; almost always the whole.
@@ -138,7 +138,7 @@ impl GeometryBuilder {
             attributes.push(VertexAttributes {
                 uv0: uv(uv_sets[0]),
                 uv1: uv(uv_sets[1]),
-                color: color.to_array().map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8),
+                color: color.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16),
             });
         }
         let rest_place = self.rest.add(&rest);
