@@ -1,6 +1,6 @@
 //! What cannot be drawn is refused with a sentence; what is odd is drawn.
 
-use genga::render::{Picture, RenderError, View};
+use genga::render::{Gpu, GpuOptions, Picture, RenderError, Renderer, View, Workload};
 use genga::scene::{Pose, Primitive, Projection, Scene};
 use genga::shapes;
 use genga::style::Style;
@@ -158,4 +158,18 @@ fn many_vertices_are_drawn() {
     let picture = draw(&scene, &Style::default(), &view);
     let inked = picture.places().filter(|&(x, y)| picture.at(x, y) != [255; 4]).count();
     assert!((100..3000).contains(&inked), "{inked} pixels of lines");
+}
+
+#[test]
+fn a_lost_device_is_an_error_and_no_panic() {
+    let gpu = pollster::block_on(Gpu::headless(&GpuOptions::default())).expect("an adapter");
+    let renderer = Renderer::new(&gpu.device, &gpu.queue).expect("the pipelines are valid");
+    let prepared = renderer.prepare(&square(), &Style::default()).expect("the scene is valid");
+    let view = ortho_view([16, 16], 2.0);
+    gpu.device.destroy();
+    let drawn = pollster::block_on(renderer.picture(&prepared, &view, &[], &mut |_, _| {}));
+    assert!(drawn.is_err(), "a picture came from a destroyed device");
+    assert!(renderer.prepare(&square(), &Style::default()).is_err());
+    let timed = pollster::block_on(renderer.time_frame(&prepared, &view, Workload::Styled));
+    assert!(timed.is_err());
 }

@@ -1,7 +1,5 @@
 //! Short forms for bind-group layouts, bind groups and buffers.
 
-use wgpu::util::DeviceExt as _;
-
 /// What a binding is.
 #[derive(Clone, Copy)]
 pub(crate) enum Binding {
@@ -135,24 +133,30 @@ pub(crate) fn compute_pipeline(
 }
 
 /// A buffer that holds `data`; at least one element long, since bindings may not be empty.
+///
+/// Written by the queue: a buffer that is mapped at creation panics where the memory is full or the
+/// device is gone, this one reports it.
 pub(crate) fn buffer<T: bytemuck::Pod>(
     device: &wgpu::Device,
+    queue: &wgpu::Queue,
     label: &str,
     usage: wgpu::BufferUsages,
     data: &[T],
 ) -> wgpu::Buffer {
-    let zero = [T::zeroed()];
-    let contents = bytemuck::cast_slice(if data.is_empty() { &zero } else { data });
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        contents,
-        usage,
-    })
+        size: (data.len().max(1) * size_of::<T>()) as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    queue.write_buffer(&buffer, 0, bytemuck::cast_slice(data));
+    buffer
 }
 
 /// Elements `T` at every multiple of 256 bytes, for dynamic offsets.
 pub(crate) fn dynamic_uniforms<T: bytemuck::Pod>(
     device: &wgpu::Device,
+    queue: &wgpu::Queue,
     label: &str,
     data: &[T],
 ) -> wgpu::Buffer {
@@ -160,7 +164,7 @@ pub(crate) fn dynamic_uniforms<T: bytemuck::Pod>(
     for (slot, value) in bytes.chunks_exact_mut(DYNAMIC_STRIDE as usize).zip(data) {
         slot[..size_of::<T>()].copy_from_slice(bytemuck::bytes_of(value));
     }
-    buffer(device, label, wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST, &bytes)
+    buffer(device, queue, label, wgpu::BufferUsages::UNIFORM, &bytes)
 }
 
 /// Bytes between the elements of [`dynamic_uniforms`]: WebGPU's largest alignment.

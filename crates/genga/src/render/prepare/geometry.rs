@@ -271,40 +271,45 @@ pub(crate) struct Geometry {
 
 impl Geometry {
     /// Uploads everything and makes world pages of the given numbers of vertices.
-    pub(crate) fn upload(device: &wgpu::Device, builder: &GeometryBuilder, world: &[u32]) -> Self {
+    pub(crate) fn upload(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        builder: &GeometryBuilder,
+        world: &[u32],
+    ) -> Self {
         use crate::render::gpu::bindings::buffer;
         use wgpu::BufferUsages as Usage;
         let all = |label: &str, usage, pages: &[Vec<_>]| -> Vec<wgpu::Buffer> {
-            pages.iter().map(|page: &Vec<u32>| buffer(device, label, usage, page)).collect()
+            pages.iter().map(|page: &Vec<u32>| buffer(device, queue, label, usage, page)).collect()
         };
         let indices = all("indices", Usage::INDEX | Usage::STORAGE, &builder.indices.pages);
         let mut morph: Vec<_> = builder
             .morph
             .pages
             .iter()
-            .map(|page| buffer(device, "morph targets", Usage::STORAGE, page))
+            .map(|page| buffer(device, queue, "morph targets", Usage::STORAGE, page))
             .collect();
         if morph.is_empty() {
-            morph.push(buffer(device, "no morph targets", Usage::STORAGE, &[0.0_f32]));
+            morph.push(buffer(device, queue, "no morph targets", Usage::STORAGE, &[0.0_f32]));
         }
         Self {
             rest: builder
                 .rest
                 .pages
                 .iter()
-                .map(|page| buffer(device, "rest vertices", Usage::STORAGE, page))
+                .map(|page| buffer(device, queue, "rest vertices", Usage::STORAGE, page))
                 .collect(),
             attributes: builder
                 .attributes
                 .iter()
-                .map(|page| buffer(device, "vertex attributes", Usage::VERTEX, page))
+                .map(|page| buffer(device, queue, "vertex attributes", Usage::VERTEX, page))
                 .collect(),
             indices,
             edges: builder
                 .edges
                 .pages
                 .iter()
-                .map(|page| buffer(device, "edges", Usage::STORAGE, page))
+                .map(|page| buffer(device, queue, "edges", Usage::STORAGE, page))
                 .collect(),
             morph,
             world: world

@@ -385,22 +385,23 @@ impl<'a> Builder<'a> {
 
     fn finish(self, pose: &Pose) -> Prepared {
         use wgpu::BufferUsages as Usage;
-        let device = self.device;
-        let geometry = Geometry::upload(device, &self.geometry, &self.world_pages);
-        let stored = Usage::STORAGE | Usage::COPY_DST;
+        let (device, queue) = (self.device, self.queue);
+        let geometry = Geometry::upload(device, queue, &self.geometry, &self.world_pages);
+        let stored = Usage::STORAGE;
         let frame = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
             size: size_of::<Frame>() as u64,
             usage: Usage::UNIFORM | Usage::COPY_DST,
             mapped_at_creation: false,
         });
-        let draw_data = bindings::buffer(device, "draws", stored, &self.draw_values);
-        let look_data = bindings::buffer(device, "looks", Usage::STORAGE, &self.looks.looks);
-        let rule_data = bindings::buffer(device, "rules", Usage::STORAGE, &self.looks.rules);
+        let draw_data = bindings::buffer(device, queue, "draws", stored, &self.draw_values);
+        let look_data = bindings::buffer(device, queue, "looks", Usage::STORAGE, &self.looks.looks);
+        let rule_data = bindings::buffer(device, queue, "rules", Usage::STORAGE, &self.looks.rules);
         let lights = lights::placed_lights(self.scene, pose, &self.style.light);
         let no_light: Light = bytemuck::Zeroable::zeroed();
-        let uniform = Usage::UNIFORM | Usage::COPY_DST;
-        let light_data = bindings::buffer(device, "lights", uniform, &[no_light; MAX_LIGHTS]);
+        let uniform = Usage::UNIFORM;
+        let light_data =
+            bindings::buffer(device, queue, "lights", uniform, &[no_light; MAX_LIGHTS]);
         let ramps = ramp_texture(device, self.queue, &self.looks.ramp_rows);
         let surface_group = bindings::group(
             device,
@@ -449,12 +450,17 @@ impl<'a> Builder<'a> {
 
     fn deform_data(&self, geometry: &Geometry) -> DeformData {
         use wgpu::BufferUsages as Usage;
-        let stored = Usage::STORAGE | Usage::COPY_DST;
+        let stored = Usage::STORAGE;
         let matrices = vec![[Vec4::ZERO; 3]; self.matrix_count.max(1) as usize];
-        let matrices =
-            bindings::buffer(self.device, "joint matrices", stored, matrices.as_flattened());
+        let matrices = bindings::buffer(
+            self.device,
+            self.queue,
+            "joint matrices",
+            stored,
+            matrices.as_flattened(),
+        );
         let weights = vec![0.0_f32; self.weight_count.max(1) as usize];
-        let weights = bindings::buffer(self.device, "morph weights", stored, &weights);
+        let weights = bindings::buffer(self.device, self.queue, "morph weights", stored, &weights);
         let mut groups = HashMap::new();
         for (_, pages) in &self.deforms {
             groups.entry(*pages).or_insert_with(|| {
@@ -473,7 +479,7 @@ impl<'a> Builder<'a> {
             });
         }
         let values: Vec<Deform> = self.deforms.iter().map(|(deform, _)| *deform).collect();
-        let uniforms = bindings::dynamic_uniforms(self.device, "deforms", &values);
+        let uniforms = bindings::dynamic_uniforms(self.device, self.queue, "deforms", &values);
         let uniforms = bindings::group(
             self.device,
             "deforms",
@@ -517,7 +523,7 @@ impl<'a> Builder<'a> {
             count: item.chunk.index_count,
             draw: i as u32,
         }));
-        let uniforms = bindings::dynamic_uniforms(device, "stroke ranges", &ranges);
+        let uniforms = bindings::dynamic_uniforms(device, self.queue, "stroke ranges", &ranges);
         let mut groups: HashMap<(usize, usize, bool), wgpu::BindGroup> = HashMap::new();
         let mut group = |world: usize, page: usize, is_edges: bool| {
             let items = if is_edges { &geometry.edges[page] } else { &geometry.indices[page] };
@@ -559,8 +565,9 @@ impl<'a> Builder<'a> {
         });
         let arguments = bindings::buffer(
             device,
+            self.queue,
             "stroke arguments",
-            Usage::STORAGE | Usage::INDIRECT | Usage::COPY_DST,
+            Usage::STORAGE | Usage::INDIRECT,
             &[0_u32; 5],
         );
         let segment_group = bindings::group(
