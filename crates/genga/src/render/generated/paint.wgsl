@@ -57,6 +57,8 @@ const LOOK_SMOOTH_RAMP: u32 = 1u;
 
 const METHOD_RIM: u32 = 4u;
 
+const MIN_WIDTH: f32 = 0.0001;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
@@ -350,7 +352,7 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
         }
         else {
             let softness = looks[look].tones[i].softness;
-            weight = saturate((t - at) / max(max(softness, width), 1e-6) + 0.5);
+            weight = saturate((t - at) / max(max(softness, width), MIN_WIDTH) + 0.5);
             if (softness > width) {
                 weight = weight * weight * (3.0 - 2.0 * weight);
             }
@@ -501,7 +503,7 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
     }
     var result = vec4f(color * alpha, alpha);
     if (frame.line_method == METHOD_RIM && looks[look_index].line_width > 0.0) {
-        let soft = max(max(looks[look_index].rim_softness, rim_width), 1e-6);
+        let soft = max(max(looks[look_index].rim_softness, rim_width), 0.0001);
         let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
         let ink = saturate((threshold - rim) / soft + 0.5);
         let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
