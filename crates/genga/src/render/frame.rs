@@ -16,6 +16,37 @@ pub(crate) struct Tile {
     pub(crate) size: [u32; 2],
 }
 
+/// What the viewport of the passes that draw surfaces spans: the whole picture, if the device can
+/// have such a viewport, so that triangles are clipped alike in every tile; or else the tile.
+pub(crate) fn viewport(device: &wgpu::Device, view: &View, tile: Tile) -> Tile {
+    let limit = device.limits().max_texture_dimension_2d / view.supersample.max(1);
+    if view.size.iter().all(|&side| side <= limit) {
+        Tile { origin: [0, 0], size: view.size }
+    } else {
+        tile
+    }
+}
+
+/// Where the passes that draw surfaces look from, and to.
+pub(crate) struct Aim {
+    /// As `Frame::eye`, for sorting.
+    pub(crate) eye: glam::Vec4,
+    pub(crate) tile: Tile,
+    /// See [`viewport`].
+    pub(crate) viewport: Tile,
+}
+
+impl Aim {
+    /// Sets the viewport, which may begin before the target does.
+    pub(crate) fn set_viewport(&self, pass: &mut wgpu::RenderPass<'_>, texels_per_pixel: u32) {
+        let scale = texels_per_pixel as f32;
+        let (tile, viewport) = (self.tile, self.viewport);
+        let at = |axis: usize| (viewport.origin[axis] as f32 - tile.origin[axis] as f32) * scale;
+        let [width, height] = viewport.size.map(|side| side as f32 * scale);
+        pass.set_viewport(at(0), at(1), width, height, 0.0, 1.0);
+    }
+}
+
 /// What a composite shows and how it is stored.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Output {
@@ -38,7 +69,7 @@ pub(crate) fn frame_values(
     prepared: &Prepared,
     view: &View,
     projected: &Projected,
-    tile: Tile,
+    [tile, viewport]: [Tile; 2],
     output: Output,
     light_count: u32,
 ) -> Frame {
@@ -71,6 +102,8 @@ pub(crate) fn frame_values(
         picture_size: vec2(view.size),
         tile_origin: vec2(tile.origin),
         tile_size: vec2(tile.size),
+        viewport_origin: vec2(viewport.origin),
+        viewport_size: vec2(viewport.size),
         depth_range: projected.depth_range,
         pixel_footprint: projected.pixel_footprint,
         line_scale,

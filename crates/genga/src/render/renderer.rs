@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{
     RenderError,
-    frame::{Output, Tile, frame_values, gbuffer_scale},
+    frame::{Aim, Output, Tile, frame_values, gbuffer_scale, viewport},
     generated::Light,
     gpu::{scope, timing::Timer},
     layouts::Layouts,
@@ -201,9 +201,9 @@ impl Renderer {
             paint_scale: view.supersample,
             gbuffer_scale: gbuffer_scale(prepared, view),
         });
-        let eye = projected.eye;
+        let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
-        self.gbuffer.run(device, encoder, prepared, &targets, eye, timer);
+        self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
         self.detect.run(device, encoder, &prepared.frame, &targets, timer);
         let group = || stroke_group(device, &self.layouts, prepared, &targets);
         match prepared.style.lines.method {
@@ -216,7 +216,7 @@ impl Renderer {
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
-        self.paint.run(device, encoder, prepared, &targets, eye, timer);
+        self.paint.run(device, encoder, prepared, &targets, &aim, timer);
         targets
     }
 
@@ -232,7 +232,8 @@ impl Renderer {
         let world_from_camera = &view.camera.world_from_camera;
         let lights: Vec<Light> =
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
-        let frame = frame_values(prepared, view, projected, tile, output, lights.len() as u32);
+        let tiles = [tile, viewport(&self.device, view, tile)];
+        let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
     }

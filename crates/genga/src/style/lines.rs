@@ -56,7 +56,8 @@ pub enum LineMethod {
     /// A ramp over E·N: Suzuki's thick-and-thin line.
     Rim,
     /// The detected mask itself (Saito and Takahashi 1990): two texels of the supersampled
-    /// picture wide, whatever the sets' widths, objects and materials are.
+    /// picture wide, fainter near its thresholds, whatever the sets' widths,
+    /// objects and materials are.
     Image,
 }
 

@@ -24,6 +24,14 @@ const FRAME_SHOW_LINES: u32 = 32u;
 
 const FRAME_SHOW_PAINT: u32 = 16u;
 
+const LINE_CREASE: u32 = 2u;
+
+const LINE_SILHOUETTE: u32 = 1u;
+
+const MASK_CREASE_SHIFT: u32 = 16u;
+
+const MASK_SILHOUETTE_SHIFT: u32 = 8u;
+
 const METHOD_CONTOUR: u32 = 1u;
 
 const METHOD_IMAGE: u32 = 5u;
@@ -45,6 +53,8 @@ struct Frame {
     picture_size: vec2f,
     tile_origin: vec2f,
     tile_size: vec2f,
+    viewport_origin: vec2f,
+    viewport_size: vec2f,
     depth_range: vec2f,
     pixel_footprint: f32,
     line_scale: f32,
@@ -105,19 +115,31 @@ fn mask_coverage(pixel: vec2i) -> vec4f {
     for (var y = 0; y < scale; y++) {
         for (var x = 0; x < scale; x++) {
             let texel = pixel * scale + vec2i(x, y);
-            var bits = 0u;
+            var strengths = vec4u(0u);
             for (var i = 0; i < 4; i++) {
                 let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-                bits |= textureLoad(mask, at, 0).x;
-            }
-            for (var i = 0u; i < frame.line_set_count; i++) {
-                if ((frame.line_sets[i].types & bits) != 0u) {
-                    sum[i] += 1.0;
+                let bits = textureLoad(mask, at, 0).x;
+                for (var s = 0u; s < frame.line_set_count; s++) {
+                    let wanted = frame.line_sets[s].types;
+                    strengths[s] = max(strengths[s], mask_strength(bits, wanted));
                 }
             }
+            sum += vec4f(strengths) / 255.0;
         }
     }
     return sum / f32(scale * scale);
+}
+
+fn mask_strength(bits: u32, wanted: u32) -> u32 {
+    let found = bits & wanted & 255u;
+    var strength = 0u;
+    if ((found & LINE_SILHOUETTE) != 0u) {
+        strength = (bits >> MASK_SILHOUETTE_SHIFT) & 255u;
+    }
+    if ((found & LINE_CREASE) != 0u) {
+        strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
+    }
+    return select(strength, 255u, (found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u);
 }
 
 fn over(top: vec4f, bottom: vec4f) -> vec4f {

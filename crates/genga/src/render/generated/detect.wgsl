@@ -48,6 +48,8 @@ struct Frame {
     picture_size: vec2f,
     tile_origin: vec2f,
     tile_size: vec2f,
+    viewport_origin: vec2f,
+    viewport_size: vec2f,
     depth_range: vec2f,
     pixel_footprint: f32,
     line_scale: f32,

@@ -69,6 +69,8 @@ struct Frame {
     picture_size: vec2f,
     tile_origin: vec2f,
     tile_size: vec2f,
+    viewport_origin: vec2f,
+    viewport_size: vec2f,
     depth_range: vec2f,
     pixel_footprint: f32,
     line_scale: f32,
@@ -294,26 +296,26 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(tile_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
 }
 
-fn tile_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
+fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
+    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
+}
+
+fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
     if (clip.w > 0.5 * frame.depth_range.x) {
         let pixels = picture_from_clip(frame, clip);
         if (all(abs(pixels) < vec2f(65536.0))) {
             let grid = 256.0 * texels_per_pixel;
             let snapped = round(pixels * grid) / grid;
-            let ndc = ((snapped - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
-            return vec4f(ndc * clip.w, clip.z, clip.w);
+            let part = (snapped - frame.viewport_origin) / frame.viewport_size;
+            return vec4f((part - 0.5) * vec2f(2.0, -2.0) * clip.w, clip.z, clip.w);
         }
     }
-    let scale = frame.picture_size / frame.tile_size;
-    let offset = (frame.picture_size - 2.0 * frame.tile_origin) / frame.tile_size - 1.0;
+    let scale = frame.picture_size / frame.viewport_size;
+    let offset = (frame.picture_size - 2.0 * frame.viewport_origin) / frame.viewport_size - 1.0;
     return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
-}
-
-fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
-    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
 
 @fragment

@@ -64,6 +64,8 @@ struct Frame {
     picture_size: vec2f,
     tile_origin: vec2f,
     tile_size: vec2f,
+    viewport_origin: vec2f,
+    viewport_size: vec2f,
     depth_range: vec2f,
     pixel_footprint: f32,
     line_scale: f32,
@@ -133,19 +135,22 @@ fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
     for (var i = 0; i < 4; i++) {
         let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
         let bits = textureLoad(mask, at, 0).x;
-        let found = bits & wanted & 255u;
-        types |= found;
-        if ((found & LINE_SILHOUETTE) != 0u) {
-            strength = max(strength, (bits >> MASK_SILHOUETTE_SHIFT) & 255u);
-        }
-        if ((found & LINE_CREASE) != 0u) {
-            strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
-        }
-        if ((found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u) {
-            strength = 255u;
-        }
+        types |= bits & wanted & 255u;
+        strength = max(strength, mask_strength(bits, wanted));
     }
     return MaskSample(types, f32(strength) / 255.0);
+}
+
+fn mask_strength(bits: u32, wanted: u32) -> u32 {
+    let found = bits & wanted & 255u;
+    var strength = 0u;
+    if ((found & LINE_SILHOUETTE) != 0u) {
+        strength = (bits >> MASK_SILHOUETTE_SHIFT) & 255u;
+    }
+    if ((found & LINE_CREASE) != 0u) {
+        strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
+    }
+    return select(strength, 255u, (found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u);
 }
 
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {

@@ -195,6 +195,8 @@ pub(crate) struct Frame {
     pub(crate) picture_size: glam::Vec2,
     pub(crate) tile_origin: glam::Vec2,
     pub(crate) tile_size: glam::Vec2,
+    pub(crate) viewport_origin: glam::Vec2,
+    pub(crate) viewport_size: glam::Vec2,
     pub(crate) depth_range: glam::Vec2,
     pub(crate) pixel_footprint: f32,
     pub(crate) line_scale: f32,
@@ -208,7 +210,7 @@ pub(crate) struct Frame {
     pub(crate) detect: Detect,
 }
 const _: () = assert!(
-    std::mem::size_of::< Frame > () == 320, "size of Frame does not match WGSL"
+    std::mem::size_of::< Frame > () == 336, "size of Frame does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, clip_from_world) == 0,
@@ -238,47 +240,55 @@ const _: () = assert!(
     "offset of Frame.tile_size does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, depth_range) == 136,
+    std::mem::offset_of!(Frame, viewport_origin) == 136,
+    "offset of Frame.viewport_origin does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, viewport_size) == 144,
+    "offset of Frame.viewport_size does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, depth_range) == 152,
     "offset of Frame.depth_range does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, pixel_footprint) == 144,
+    std::mem::offset_of!(Frame, pixel_footprint) == 160,
     "offset of Frame.pixel_footprint does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_scale) == 148,
+    std::mem::offset_of!(Frame, line_scale) == 164,
     "offset of Frame.line_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, paint_scale) == 152,
+    std::mem::offset_of!(Frame, paint_scale) == 168,
     "offset of Frame.paint_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, gbuffer_scale) == 156,
+    std::mem::offset_of!(Frame, gbuffer_scale) == 172,
     "offset of Frame.gbuffer_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, light_count) == 160,
+    std::mem::offset_of!(Frame, light_count) == 176,
     "offset of Frame.light_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, flags) == 164,
+    std::mem::offset_of!(Frame, flags) == 180,
     "offset of Frame.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_set_count) == 168,
+    std::mem::offset_of!(Frame, line_set_count) == 184,
     "offset of Frame.line_set_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_method) == 172,
+    std::mem::offset_of!(Frame, line_method) == 188,
     "offset of Frame.line_method does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_sets) == 176,
+    std::mem::offset_of!(Frame, line_sets) == 192,
     "offset of Frame.line_sets does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, detect) == 304,
+    std::mem::offset_of!(Frame, detect) == 320,
     "offset of Frame.detect does not match WGSL"
 );
 pub(crate) const LIGHT_DIRECTIONAL: u32 = 0u32;

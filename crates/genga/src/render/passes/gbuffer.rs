@@ -5,6 +5,7 @@ use super::surface::{
 };
 use crate::render::gpu::timing::Timer;
 use crate::render::{
+    frame::Aim,
     layouts::Layouts,
     prepare::Prepared,
     targets::{IDS_FORMAT, NORMAL_FORMAT, Targets},
@@ -30,7 +31,7 @@ impl GBufferPass {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         targets: &Targets,
-        eye: glam::Vec4,
+        aim: &Aim,
         timer: &mut Timer,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -44,7 +45,8 @@ impl GBufferPass {
             ..Default::default()
         });
         // Blended surfaces enter where they are at least half opaque; the shader decides.
-        let [opaque, blended] = sorted_items(prepared, eye);
+        aim.set_viewport(&mut pass, targets.size.gbuffer_scale);
+        let [opaque, blended] = sorted_items(prepared, aim.eye);
         let items =
             opaque.into_iter().chain(blended).map(|(i, item)| (i, item, Variant::of(item, 1)));
         draw_items(device, &mut pass, prepared, &self.pipelines, items);

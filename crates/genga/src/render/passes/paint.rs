@@ -5,6 +5,7 @@ use super::surface::{
 };
 use crate::render::gpu::timing::Timer;
 use crate::render::{
+    frame::Aim,
     layouts::Layouts,
     prepare::Prepared,
     targets::{PAINT_FORMAT, Targets, paint_samples},
@@ -35,7 +36,7 @@ impl PaintPass {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         targets: &Targets,
-        eye: glam::Vec4,
+        aim: &Aim,
         timer: &mut Timer,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -52,7 +53,8 @@ impl PaintPass {
             ..Default::default()
         });
         let samples = paint_samples(targets.size.paint_scale);
-        let [opaque, blended] = sorted_items(prepared, eye);
+        aim.set_viewport(&mut pass, targets.size.paint_scale);
+        let [opaque, blended] = sorted_items(prepared, aim.eye);
         let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item, samples)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
         if prepared.style.lines.method == LineMethod::Hull {
