@@ -31,6 +31,7 @@ pub mod render;
 pub mod scene;
 pub mod scene_file;
 pub mod shapes;
+mod srgb;
 pub mod style;
 mod toml_file;
 

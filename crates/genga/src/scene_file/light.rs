@@ -3,6 +3,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::{Light, LightKind, Transform};
+use crate::srgb::linear_from_srgb;
 use crate::style::{Color, PinnedTo};
 
 /// A light of a scene file.
@@ -159,9 +160,4 @@ fn from_angles(azimuth_deg: f32, elevation_deg: f32) -> Vec3 {
     let (sin_a, cos_a) = azimuth_deg.to_radians().sin_cos();
     let (sin_e, cos_e) = elevation_deg.to_radians().sin_cos();
     Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e)
-}
-
-/// IEC 61966-2-1.
-fn linear_from_srgb(encoded: f32) -> f32 {
-    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

@@ -11,12 +11,11 @@ use glam::{Vec2, Vec3};
 use super::{files, for_each_line, number, numbers, picture, quoted, split_keyword};
 use crate::import::warnings::Warnings;
 use crate::scene::{AlphaMode, Material, Sampler, Scene, Texture, TextureRef, UvTransform, Wrap};
+use crate::srgb::linear_from_srgb;
 
 /// Linear light from a displayed colour (IEC 61966-2-1).
-pub(super) fn linear_from_srgb(color: Vec3) -> Vec3 {
-    color
-        .clamp(Vec3::ZERO, Vec3::ONE)
-        .map(|c| if c <= 0.040_45 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) })
+pub(super) fn linear_color(color: Vec3) -> Vec3 {
+    color.clamp(Vec3::ZERO, Vec3::ONE).map(linear_from_srgb)
 }
 
 /// A picture with the way a material places it.
@@ -166,11 +165,11 @@ impl Entry {
     fn statement(&mut self, keyword: &str, rest: &str) -> Result<(), String> {
         match keyword.to_ascii_lowercase().as_str() {
             "kd" => {
-                let color = linear_from_srgb(color(rest)?);
+                let color = linear_color(color(rest)?);
                 self.material.base_color = color.extend(self.material.base_color.w);
                 self.has_diffuse = true;
             }
-            "ke" => self.material.emissive = linear_from_srgb(color(rest)?),
+            "ke" => self.material.emissive = linear_color(color(rest)?),
             "d" => {
                 let alpha = number(rest.trim_start_matches("-halo").trim())?;
                 self.material.base_color.w = alpha.clamp(0.0, 1.0);

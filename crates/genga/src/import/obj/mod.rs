@@ -178,7 +178,7 @@ impl Reader<'_> {
         let ([x, y, z, r, g, b], count) = numbers::<6>(rest, 3)?;
         if count == 6 {
             self.colors.resize(self.positions.len(), Vec3::ONE);
-            self.colors.push(material::linear_from_srgb(Vec3::new(r, g, b)));
+            self.colors.push(material::linear_color(Vec3::new(r, g, b)));
         } else if !self.colors.is_empty() {
             self.colors.push(Vec3::ONE);
         }

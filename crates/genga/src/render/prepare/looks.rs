@@ -8,6 +8,7 @@ use glam::{Vec3, Vec4};
 
 use crate::render::generated::{self as gpu, Look, Rule, Tone};
 use crate::scene::Image;
+use crate::srgb::linear_from_srgb;
 use crate::style::{BaseColor, BlendSpace, Color, Lines, Override, Paint, Ramp, Style, ToneBlend};
 
 /// Most per-pixel selectors that can apply to one object and material: each doubles its looks.
@@ -238,11 +239,10 @@ fn tones_of(ramp: &Ramp, blend: BlendSpace) -> Vec<Tone> {
 
 /// A colour as the shaders of that blend space want it (straight alpha).
 pub(crate) fn in_blend_space(color: Color, blend: BlendSpace) -> Vec4 {
-    let linear = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     match blend {
         BlendSpace::Display => Vec4::from(color.to_array()),
         BlendSpace::Linear => {
-            Vec3::new(linear(color.r), linear(color.g), linear(color.b)).extend(color.a)
+            Vec3::new(color.r, color.g, color.b).map(linear_from_srgb).extend(color.a)
         }
     }
 }

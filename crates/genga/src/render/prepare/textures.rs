@@ -8,6 +8,7 @@ use std::{
 use wgpu::util::DeviceExt as _;
 
 use crate::scene::{Filter, Image, MipFilter, Sampler, Scene, TextureRef, Wrap};
+use crate::srgb::{linear_from_srgb, srgb_from_linear};
 
 /// Textures and samplers of a scene, each uploaded once.
 pub(crate) struct Textures<'a> {
@@ -203,14 +204,6 @@ static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
     };
     (0..=65536).map(encode).collect()
 });
-
-fn linear_from_srgb(v: f32) -> f32 {
-    if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
-}
-
-fn srgb_from_linear(v: f32) -> f32 {
-    if v <= 0.003_130_8 { v * 12.92 } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
-}
 
 #[cfg(test)]
 mod tests {
