@@ -128,7 +128,7 @@ pub(crate) fn frame_values(
         },
         line_sets,
         detect: Detect {
-            depth: detect.depth,
+            depth: if detect.laplacian > 0.0 { detect.laplacian } else { detect.depth },
             crease_cos: if detect.crease_deg > 0.0 {
                 detect.crease_deg.to_radians().cos()
             } else {
@@ -171,5 +171,6 @@ fn type_bit(line_type: LineType) -> u32 {
         LineType::Material => gpu::LINE_MATERIAL,
         LineType::Border => gpu::LINE_BORDER,
         LineType::User => gpu::LINE_USER,
+        LineType::UvSeam => gpu::LINE_UV_SEAM,
     }
 }

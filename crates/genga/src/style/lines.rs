@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{Color, Globs};
+use super::{Color, Globs, WidthBy, Wobble};
 use crate::toml_file::list_with;
 
 /// How lines are found and drawn.
@@ -16,6 +16,8 @@ pub struct Lines {
     pub reference_height: f32,
     /// What counts as a line.
     pub detect: Detect,
+    /// How visible pieces become strokes (`contour`).
+    pub strokes: Strokes,
     /// The hull method's own settings.
     pub hull: Hull,
     /// The rim method's own settings.
@@ -33,6 +35,7 @@ impl Default for Lines {
             method: LineMethod::Contour,
             reference_height: 1080.0,
             detect: Detect::default(),
+            strokes: Strokes::default(),
             hull: Hull::default(),
             rim: Rim::default(),
             sets: vec![LineSet::default()],
@@ -79,16 +82,24 @@ pub enum LineType {
     Border,
     /// Two user line ids meet.
     User,
+    /// The texture coordinates of the first set tear.
+    UvSeam,
 }
 
-/// Thresholds of detection (image space). A source that is off finds nothing.
+/// What counts as a line. A source that is off finds nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Detect {
-    /// Silhouettes: distance from the neighbour to the pixel's plane, in pixel footprints;
-    /// 0 is off. Larger finds less.
+    /// Size of the detection's own picture against the drawn one: a smaller one is faster.
+    pub scale: DetectScale,
+    /// Silhouettes by the distance of a surface from its neighbour's plane, in footprints of a
+    /// pixel at `reference_height`; 0 is off. Larger finds less.
     #[schemars(range(min = 0))]
     pub depth: f32,
+    /// Silhouettes by the second difference of the inverse distance, which is 0 on every plane, in
+    /// the same unit; 0 is off. Larger finds less.
+    #[schemars(range(min = 0))]
+    pub laplacian: f32,
     /// Creases: smallest angle between two normals in degrees; 0 is off.
     #[schemars(range(min = 0, max = 180))]
     pub crease_deg: f32,
@@ -96,13 +107,79 @@ pub struct Detect {
     pub objects: bool,
     /// Lines between materials.
     pub materials: bool,
-    /// Lines between user line ids.
+    /// Lines between user line ids (`_LINE_ID`, `override.lines.line_id`).
     pub user: bool,
+    /// Lines along open ends of meshes.
+    pub borders: bool,
+    /// Lines where the texture coordinates of the first set tear. Only `contour` finds them.
+    pub uv_seams: bool,
 }
 
 impl Default for Detect {
     fn default() -> Self {
-        Self { depth: 4.0, crease_deg: 40.0, objects: true, materials: true, user: true }
+        Self {
+            scale: DetectScale::Full,
+            depth: 0.0,
+            laplacian: 4.0,
+            crease_deg: 40.0,
+            objects: true,
+            materials: true,
+            user: true,
+            borders: true,
+            uv_seams: false,
+        }
+    }
+}
+
+/// Pixels of the detection per pixel of the picture, along each axis (Okuya et al. 2015, section
+/// 5.3).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+pub enum DetectScale {
+    /// As many.
+    #[default]
+    #[serde(rename = "1")]
+    Full,
+    /// Two for three.
+    #[serde(rename = "2/3")]
+    TwoThirds,
+    /// One for three.
+    #[serde(rename = "1/3")]
+    Third,
+    /// One for six.
+    #[serde(rename = "1/6")]
+    Sixth,
+}
+
+impl DetectScale {
+    /// The number.
+    #[must_use]
+    pub fn factor(self) -> f32 {
+        match self {
+            Self::Full => 1.0,
+            Self::TwoThirds => 2.0 / 3.0,
+            Self::Third => 1.0 / 3.0,
+            Self::Sixth => 1.0 / 6.0,
+        }
+    }
+}
+
+/// How visible pieces of lines become strokes.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Strokes {
+    /// Strokes shorter than this are not drawn, and those up to twice as long are thinner, in
+    /// pixels at `reference_height`.
+    #[schemars(range(min = 0, max = 1000))]
+    pub min_length: f32,
+    /// Gaps up to this length between two visible parts of one stroke are closed, in pixels at
+    /// `reference_height`. What lies in front still covers them.
+    #[schemars(range(min = 0, max = 1000))]
+    pub gap: f32,
+}
+
+impl Default for Strokes {
+    fn default() -> Self {
+        Self { min_length: 6.0, gap: 6.0 }
     }
 }
 
@@ -148,14 +225,61 @@ pub struct LineSet {
     pub objects: Globs,
     /// Globs of material names; empty for all.
     pub materials: Globs,
+    /// Whether it draws the visible or the hidden parts (`contour` only).
+    pub parts: LineParts,
+    /// Globs of materials that do not hide its lines, such as hair before eyebrows (`contour`
+    /// only).
+    pub through: Globs,
     /// Colour of the ink.
     pub color: Color,
+    /// Where the colour comes from (`contour` only).
+    pub color_by: LineColorBy,
+    /// With `color_by = "base"`: factor on the surface's base colour, in [0, 1].
+    #[schemars(range(min = 0, max = 1))]
+    pub darken: f32,
+    /// With `color_by = "light"`: the colour where light falls; `color` is the one in shade.
+    pub lit_color: Color,
     /// Opacity in [0, 1], on top of the colour's alpha.
     #[schemars(range(min = 0, max = 1))]
     pub opacity: f32,
     /// Full width in pixels of a picture that is `reference_height` high, ≥ 0.
     #[schemars(range(min = 0))]
     pub width: f32,
+    /// Full width in metres instead of `width` (`contour` only).
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub width_m: Option<f32>,
+    /// What else the width depends on (`contour` only).
+    pub width_by: WidthBy,
+    /// Lengths of dash and gap in pixels at `reference_height` (`contour` only).
+    #[serde(deserialize_with = "dash")]
+    #[schemars(inner(range(min = 0)))]
+    pub dash: Option<[f32; 2]>,
+    /// An unsteady hand (`contour` only).
+    pub wobble: Option<Wobble>,
+}
+
+/// Which parts of lines a set draws.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineParts {
+    /// Those that nothing covers.
+    #[default]
+    Visible,
+    /// Those behind something.
+    Hidden,
+}
+
+/// Where the colour of a line comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineColorBy {
+    /// `color`.
+    #[default]
+    Fixed,
+    /// The surface's base colour times `darken`.
+    Base,
+    /// From `color` in shade to `lit_color` where light falls.
+    Light,
 }
 
 impl Default for LineSet {
@@ -165,10 +289,30 @@ impl Default for LineSet {
             types: Vec::new(),
             objects: Globs::default(),
             materials: Globs::default(),
+            parts: LineParts::Visible,
+            through: Globs::default(),
             color: Color::BLACK,
+            color_by: LineColorBy::Fixed,
+            darken: 0.4,
+            lit_color: Color::WHITE,
             opacity: 1.0,
             width: 3.0,
+            width_m: None,
+            width_by: WidthBy::default(),
+            dash: None,
+            wobble: None,
         }
+    }
+}
+
+/// A dash needs a length.
+fn dash<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[f32; 2]>, D::Error> {
+    use serde::de::Error as _;
+    match Option::<[f32; 2]>::deserialize(deserializer)? {
+        Some([dash, gap]) if dash + gap < 1.0 => Err(D::Error::custom(format!(
+            "must be at least 1 pixel together, not {dash} and {gap}"
+        ))),
+        other => Ok(other),
     }
 }
 

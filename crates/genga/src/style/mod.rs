@@ -31,18 +31,23 @@ mod picture;
 mod presets;
 #[cfg(test)]
 mod tests;
+mod widths;
 
 pub use color::{Color, ColorError};
 pub(crate) use file::is_style_path;
 pub use file::{StyleError, json_schema};
 pub use globs::{GlobError, Globs};
-pub use lines::{Detect, Hull, LineMethod, LineSet, LineType, Lines, Rim};
+pub use lines::{
+    Detect, DetectScale, Hull, LineColorBy, LineMethod, LineParts, LineSet, LineType, Lines, Rim,
+    Strokes,
+};
 pub use overrides::{
     BaseColorRange, IdTexture, LineOverride, Override, PaintOverride, Selector, VertexColorRange,
 };
 pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
+pub use widths::{Curve, WidthBy, Wobble};
 
 /// A whole look.
 #[derive(Clone, Debug, PartialEq)]

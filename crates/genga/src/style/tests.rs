@@ -108,8 +108,14 @@ fn every_key_is_read() {
     };
     assert_eq!(style.paint.ramp, ramp);
     assert_eq!((style.lines.method, style.lines.reference_height), (LineMethod::Hull, 720.0));
-    let detect =
-        Detect { depth: 1.0, crease_deg: 2.0, objects: false, materials: false, user: false };
+    let detect = Detect {
+        depth: 1.0,
+        crease_deg: 2.0,
+        objects: false,
+        materials: false,
+        user: false,
+        ..Detect::default()
+    };
     assert_eq!(style.lines.detect, detect);
     assert_eq!(style.lines.hull, Hull { width_m: Some(0.01) });
     assert_eq!(style.lines.rim, Rim { threshold: 0.2, softness: 0.1 });
