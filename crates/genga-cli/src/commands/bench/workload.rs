@@ -109,6 +109,7 @@ fn case(
         size,
         supersample: args.supersample,
         background: true,
+        frame: 0,
     };
     let (workload, style_name) = (workload.to_owned(), chosen.name);
     Ok(Job::Frames(Box::new(Case { workload, scene, style_name, style, view })))
