@@ -55,13 +55,15 @@ const DRAW_DOUBLE_SIDED: u32 = 16u;
 
 const DRAW_MIRRORED: u32 = 8u;
 
-const EDGE_HALF: u32 = 1073741823u;
+const EDGE_FLAT: u32 = 268435456u;
 
 const EDGE_HARD: u32 = 1073741824u;
 
 const EDGE_MATERIAL: u32 = 2147483648u;
 
-const EDGE_NONE: u32 = 1073741823u;
+const EDGE_NONE: u32 = 268435455u;
+
+const EDGE_SIDE: u32 = 268435455u;
 
 const EDGE_USER: u32 = 1073741824u;
 
@@ -779,16 +781,10 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     if (number >= range.count) {
         return;
     }
-    let half = 3u * (range.first + number);
+    let half = edges[range.first + number].left;
     let i0 = corner_index(half);
     let i1 = corner_index(half + 1u);
     let i2 = corner_index(half + 2u);
-    let n0 = world[range.world_first + i0].normal;
-    let n1 = world[range.world_first + i1].normal;
-    let n2 = world[range.world_first + i2].normal;
-    if (n0 == n1 && n1 == n2) {
-        return;
-    }
     let c0 = corner_at(i0);
     let c1 = corner_at(i1);
     let c2 = corner_at(i2);
@@ -857,8 +853,8 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         return;
     }
     let edge = edges[range.first + number];
-    let left = edge.left & EDGE_HALF;
-    let right = edge.right & EDGE_HALF;
+    let left = edge.left & EDGE_SIDE;
+    let right = edge.right & EDGE_SIDE;
     let i0 = corner_index(left);
     let i1 = corner_index(following(left));
     let third = place(corner_index(following(following(left))));
@@ -881,6 +877,9 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     }
     start_line(range.order_first + number);
     var facing_left = vec2f(c0.facing, c1.facing);
+    if ((edge.left & EDGE_FLAT) != 0u) {
+        facing_left = vec2f(dot(left_normal, facing_vector(frame, c0.p)));
+    }
     var facing_right = -facing_left;
     var right_third = third;
     var right_normal = -left_normal;
@@ -893,6 +892,9 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         right_third = place(corner_index(following(following(right))));
         facing_right = vec2f(r0.facing, r1.facing);
         right_normal = side * cross(c0.p - c1.p, right_third - c1.p);
+        if ((edge.right & EDGE_FLAT) != 0u) {
+            facing_right = vec2f(dot(right_normal, facing_vector(frame, c0.p)));
+        }
         if ((edge.left & EDGE_HARD) != 0u) {
             let lengths = sqrt(dot(left_normal, left_normal)) * sqrt(dot(right_normal, right_normal));
             let cosine = dot(left_normal, right_normal) / max(lengths, 1e-37);
@@ -903,7 +905,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
     }
     known &= sources;
-    let is_hard = (edge.left & EDGE_HARD) != 0u || right == EDGE_NONE;
+    let is_hard = (edge.left & (EDGE_HARD | EDGE_FLAT)) != 0u || (edge.right & EDGE_FLAT) != 0u || right == EDGE_NONE;
     let left_changes = facing_left.x * facing_left.y < 0.0;
     let right_changes = facing_right.x * facing_right.y < 0.0;
     let can_be_silhouette = is_hard && (left_changes || right_changes || facing_left.x * facing_right.x < 0.0 || facing_left.y * facing_right.y < 0.0);
