@@ -24,6 +24,9 @@ var<storage, read> links: array<u32>;
 @group(1) @binding(3)
 var<storage, read> ranks: array<vec2u>;
 
+@group(1) @binding(4)
+var<storage, read> places: array<vec4f>;
+
 const BEFORE_CUT: f32 = 3.0;
 
 const CURVE_COUNT: u32 = 5u;
@@ -363,14 +366,16 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32) -> bool {
     let unit = way / length_px;
     var fall = max(behind(p_px - unit, line_depth) - here, 0.0);
     let steps = u32(clamp(ceil(length_px - NEAR_LINE), 1.0, 48.0));
+    var next = behind(p_px + unit * min(1.0, length_px - NEAR_LINE), line_depth);
     for (var i = 1u; i <= steps; i++) {
-        let next = behind(p_px + unit * min(f32(i), length_px - NEAR_LINE), line_depth);
+        let after = behind(p_px + unit * min(f32(i) + 1.0, length_px), line_depth);
         let drop = here - next;
-        if (drop > STEP && drop > 3.0 * fall + STEP) {
+        if (drop > STEP + 3.0 * max(fall, max(next - after, 0.0))) {
             return true;
         }
         fall = max(drop, 0.0);
         here = next;
+        next = after;
         if (here <= ON_SURFACE) {
             return false;
         }
@@ -485,9 +490,9 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     if (((state >> line_set) & 1u) == 0u) {
         return nothing;
     }
-    var a = pieces[piece].a;
-    var b = pieces[piece].b;
-    let own = distance(a, b);
+    var a = places[piece].xy;
+    var b = places[piece].zw;
+    let own = distance(pieces[piece].a, pieces[piece].b);
     let start = ending(2u * piece);
     let end = ending(2u * piece + 1u);
     let whole = start.distance + own + end.distance;

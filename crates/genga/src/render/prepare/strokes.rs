@@ -23,6 +23,7 @@ pub(crate) struct StrokeData {
     /// Ranks of the ends, read and written by turns.
     pub(crate) ranks: [wgpu::Buffer; 2],
     pub(crate) states: wgpu::Buffer,
+    pub(crate) places: wgpu::Buffer,
     /// See `shaders/passes/strokes.wesl`.
     pub(crate) curves: wgpu::TextureView,
     /// Hard edges.
@@ -135,6 +136,7 @@ impl StrokeData {
                 stored("ranks", 16 * capacity, none),
             ],
             states: stored("states of pieces", 16 * capacity, none),
+            places: stored("places of pieces", 16 * capacity, none),
             curves: curve_texture(device, queue, style),
             edges,
             contours,
