@@ -2,6 +2,8 @@
 //!
 //! Exits with 1 if anything is not as it must be.
 
+mod contours;
+
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -37,7 +39,8 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 4] = [
+    let parts: [Part; 5] = [
+        ("contours", contours::contours),
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
@@ -45,9 +48,8 @@ fn main() -> ExitCode {
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
-        eprintln!(
-            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, or none for all"
-        );
+        let names = parts.map(|(name, _)| name).join(", ");
+        eprintln!("there is no part '{unknown}': name some of {names}, or none for all");
         return ExitCode::FAILURE;
     }
     for (name, part) in parts {

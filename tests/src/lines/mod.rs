@@ -1,0 +1,16 @@
+//! Where lines must be, in f64, and figures of how drawn ones lie on them.
+//!
+//! [`expected`] says which pieces of a mesh are lines in a view, [`cuts`] where objects run into
+//! each other, [`places`] which parts of them can be seen, [`figures`] what is drawn of them.
+
+pub mod capsules;
+pub mod cuts;
+pub mod expected;
+pub mod figures;
+pub mod ink;
+pub mod places;
+pub mod subjects;
+
+pub use expected::{Kind, Line, expected};
+pub use figures::{Figures, measure, measure_owners};
+pub use places::{Place, places};
