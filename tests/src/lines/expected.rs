@@ -46,6 +46,9 @@ const NEAR_THRESHOLD_DEG: f64 = 5.0;
 /// Where objects cut each other at a smaller angle, the line's place is ill-defined, in degrees.
 const FLAT_CUT_DEG: f64 = 8.0;
 
+/// Faces seen at a smaller angle than this may be thinner than a pixel, as its sine.
+const EDGE_ON: f64 = 0.04;
+
 /// An edge with its faces: their indices, and their normals at both ends.
 struct Edge {
     ends: [DVec3; 2],
@@ -69,11 +72,17 @@ pub fn expected(triangles: &[Triangle], eye: &Eye, crease_deg: f64) -> Vec<Line>
         if [a, b].iter().any(|t| !t.double_sided && !t.faces(eye)) {
             continue;
         }
+        let is_broad = !is_edge_on(a, eye) && !is_edge_on(b, eye);
         let angle = a.outward.angle_between(b.outward).to_degrees();
-        let must = angle.min(180.0 - angle) > FLAT_CUT_DEG;
+        let must = is_broad && angle.min(180.0 - angle) > FLAT_CUT_DEG;
         lines.push(Line { ends, kind: Kind::Cut, faces, slack: 0.0, must });
     }
     lines
+}
+
+fn is_edge_on(triangle: &Triangle, eye: &Eye) -> bool {
+    let towards = eye.towards(triangle.corners[0]).normalize_or_zero();
+    triangle.outward.normalize_or_zero().dot(towards).abs() < EDGE_ON
 }
 
 fn bits(p: DVec3) -> [u64; 3] {
@@ -107,10 +116,11 @@ fn edge_lines(
     lines: &mut Vec<Line>,
 ) {
     let seen = |f: usize| triangles[f].double_sided || triangles[f].faces(eye);
+    let broad = |f: usize| seen(f) && !is_edge_on(&triangles[f], eye);
     let whole = |kind, faces, must| Line { ends: edge.ends, kind, faces, slack: 0.0, must };
     let [(f, f_normals), (g, g_normals)] = edge.faces[..] else {
         if let Some((f, _)) = edge.faces.iter().find(|(f, _)| seen(*f)) {
-            lines.push(whole(Kind::Border, [*f; 2], true));
+            lines.push(whole(Kind::Border, [*f; 2], broad(*f)));
         }
         return;
     };
@@ -120,13 +130,16 @@ fn edge_lines(
     let faces = [f, g];
     let [a, b] = faces.map(|face| &triangles[face]);
     let angle = a.outward.angle_between(b.outward).to_degrees();
+    let is_hard = (0..2).any(|end| f_normals[end].dot(g_normals[end]) < 1.0 - 1e-6);
+    let is_broad = broad(f) || broad(g);
     if angle > crease_deg - NEAR_THRESHOLD_DEG {
-        lines.push(whole(Kind::Crease, faces, angle > crease_deg + NEAR_THRESHOLD_DEG));
+        // Between faces that are shaded as one surface, the picture shows no crease.
+        let must = is_hard && is_broad && angle > crease_deg + NEAR_THRESHOLD_DEG;
+        lines.push(whole(Kind::Crease, faces, must));
     }
     if a.owner != b.owner {
-        lines.push(whole(Kind::Seam, faces, true));
+        lines.push(whole(Kind::Seam, faces, is_broad));
     }
-    let is_hard = (0..2).any(|end| f_normals[end].dot(g_normals[end]) < 1.0 - 1e-6);
     if !is_hard {
         return;
     }
@@ -143,7 +156,7 @@ fn edge_lines(
         if turned[0] != turned[1] && pair[0] < pair[1] {
             let ends = [pair[0], pair[1]].map(|t| edge.ends[0].lerp(edge.ends[1], t));
             // Between normals that hardly differ it is as thin as a contour that turns away.
-            let must = angle > NEAR_THRESHOLD_DEG;
+            let must = is_broad && angle > NEAR_THRESHOLD_DEG;
             lines.push(Line { ends, kind: Kind::Silhouette, faces, slack: 0.0, must });
         }
     }

@@ -3,11 +3,14 @@
 //! [`expected`] says which pieces of a mesh are lines in a view, [`cuts`] where objects run into
 //! each other, [`places`] which parts of them can be seen, [`figures`] what is drawn of them.
 
+pub mod broad;
 pub mod capsules;
 pub mod cuts;
 pub mod expected;
 pub mod figures;
 pub mod ink;
+pub mod motion;
+pub mod outline;
 pub mod places;
 pub mod subjects;
 
