@@ -3,6 +3,9 @@
 //! Exits with 1 if anything is not as it must be.
 
 mod contours;
+mod motion;
+mod outlines;
+mod scales;
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -39,8 +42,11 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 5] = [
+    let parts: [Part; 8] = [
         ("contours", contours::contours),
+        ("outlines", outlines::outlines),
+        ("scales", scales::scales),
+        ("motion", motion::motion),
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
