@@ -15,12 +15,18 @@ pub(crate) fn aspect(size: [u32; 2]) -> f32 {
     size[0] as f32 / size[1] as f32
 }
 
-/// What the camera sees.
-pub(crate) fn view(args: &PictureArgs, source: &Source, camera: ViewCamera) -> View {
+/// What the camera sees in a frame of an animation.
+pub(crate) fn view(
+    args: &PictureArgs,
+    source: &Source,
+    camera: ViewCamera,
+    frame: i64,
+) -> View {
     View {
         camera,
         size: size(args, source),
         supersample: args.supersample.or(source.picture.supersample).unwrap_or(2),
         background: !args.no_background && source.picture.background.unwrap_or(true),
+        frame: u32::try_from(frame).unwrap_or(0),
     }
 }

@@ -123,7 +123,7 @@ impl Shoot<'_> {
             let pose = source.pose(self.moments.seconds(frame))?;
             let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
             graphics.check(&source.name, posed)?;
-            let view = view::view(&args.picture, source, self.camera(&pose, &points)?);
+            let view = view::view(&args.picture, source, self.camera(&pose, &points)?, frame);
             let step = &mut |done, tiles| progress.set(number, done, tiles);
             let picture = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
             saver.save(&picture, &target)?;

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &TurntableArgs, console: &Console) -> Outcome {
     for (frame, camera) in cameras.into_iter().enumerate() {
         let target = names.target(&source.name, &style.name, frame as i64, frame);
         saver.check(&target, &layers, &inputs)?;
-        let view = view::view(picture, &source, camera);
+        let view = view::view(picture, &source, camera, frame as i64);
         let step = &mut |done, tiles| progress.set(frame, done, tiles);
         let drawn = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
         saver.save(&drawn, &target)?;

@@ -12,14 +12,16 @@ pub(crate) struct Layouts {
     pub(crate) deform: wgpu::BindGroupLayout,
     /// One uniform with a dynamic offset.
     pub(crate) dynamic: wgpu::BindGroupLayout,
-    /// World vertices, edges or indices, range.
+    /// World vertices, edges, indices, rest vertices, range.
     pub(crate) stroke_source: wgpu::BindGroupLayout,
-    /// Group 0 of `candidates`: that of `strokes`, segments, arguments.
-    pub(crate) candidates: wgpu::BindGroupLayout,
-    /// Group 1 of `strokes`.
-    pub(crate) segments: wgpu::BindGroupLayout,
-    /// Group 0 of `strokes` and `reference`: frame, draws, mask, ids, depth, normals.
+    /// Group 0 of `candidates` and `seams`, see `shaders/lib/line.wesl`.
+    pub(crate) lines: wgpu::BindGroupLayout,
+    /// Group 0 of `strokes`: frame, depth, ids, curves.
     pub(crate) strokes: wgpu::BindGroupLayout,
+    /// Group 1 of `strokes`: pieces, states, links, ranks.
+    pub(crate) linked: wgpu::BindGroupLayout,
+    /// Group 0 of `reference`: frame, draws, mask.
+    pub(crate) reference: wgpu::BindGroupLayout,
 }
 
 impl Layouts {
@@ -70,36 +72,48 @@ impl Layouts {
                 device,
                 "stroke source",
                 all,
-                &[(0, B::Storage), (1, B::Storage), (2, B::DynamicUniform)],
+                &[
+                    (0, B::Storage),
+                    (1, B::Storage),
+                    (2, B::Storage),
+                    (3, B::Storage),
+                    (4, B::DynamicUniform),
+                ],
             ),
-            candidates: layout(
+            lines: layout(
                 device,
-                "candidates",
+                "lines",
                 S::COMPUTE,
                 &[
                     (0, B::Uniform),
                     (1, B::Storage),
                     (2, B::StorageWrite),
                     (3, B::StorageWrite),
-                    (4, B::Uint),
-                    (5, B::Uint),
-                    (6, B::Depth),
+                    (4, B::Uniform),
+                    (5, B::Float),
+                    (6, B::Uint),
                     (7, B::Float),
+                    (8, B::Float),
+                    (9, B::StorageWrite),
                 ],
             ),
-            segments: layout(device, "segments", S::VERTEX, &[(0, B::Storage)]),
             strokes: layout(
                 device,
                 "strokes",
                 drawn,
-                &[
-                    (0, B::Uniform),
-                    (1, B::Storage),
-                    (4, B::Uint),
-                    (5, B::Uint),
-                    (6, B::Depth),
-                    (7, B::Float),
-                ],
+                &[(0, B::Uniform), (1, B::Float), (2, B::Uint), (3, B::Float)],
+            ),
+            linked: layout(
+                device,
+                "linked pieces",
+                S::VERTEX,
+                &[(0, B::Storage), (1, B::Storage), (2, B::Storage), (3, B::Storage)],
+            ),
+            reference: layout(
+                device,
+                "reference",
+                drawn,
+                &[(0, B::Uniform), (1, B::Storage), (4, B::Uint)],
             ),
         }
     }

@@ -3,10 +3,11 @@
 use super::{
     RenderError,
     frame::{Output, Tile, apron, gbuffer_scale},
+    generated::ID_OBJECT,
     gpu::{readback::TextureRead, scope, timing::Timer},
     prepare::Prepared,
     renderer::{Renderer, check_view},
-    targets::{Target, target},
+    targets::{Scale, Target, target},
     view::{Projected, View},
 };
 
@@ -170,7 +171,7 @@ impl Renderer {
             offset: [kept.origin[0] - tile.origin[0], kept.origin[1] - tile.origin[1]],
             kept,
             scale: gbuffer_scale(prepared, view),
-            width: tile.size[0] * gbuffer_scale(prepared, view),
+            width: gbuffer_scale(prepared, view).of(tile.size[0]),
         };
         for (layer, read) in picture.layers.iter_mut().zip(reads) {
             texels.copy(layer, picture.width, &read.finish(&self.device).await?);
@@ -254,20 +255,19 @@ struct Texels {
     /// The kept part in the tile, in pixels.
     offset: [u32; 2],
     kept: Tile,
-    /// G-buffer texels per pixel.
-    scale: u32,
+    scale: Scale,
     /// G-buffer texels in a row.
     width: u32,
 }
 
 impl Texels {
-    /// The top-left G-buffer texel of each pixel of the part that is kept, `N` bytes each.
+    /// A G-buffer texel of each pixel of the part that is kept, `N` bytes each.
     fn pick<'a, const N: usize>(&self, bytes: &'a [u8]) -> impl Iterator<Item = &'a [u8; N]> {
         let (texels, _) = bytes.as_chunks::<N>();
         let (offset, size, scale, width) = (self.offset, self.kept.size, self.scale, self.width);
         (0..size[1]).flat_map(move |y| {
-            let row = ((offset[1] + y) * scale * width) as usize;
-            (0..size[0]).map(move |x| &texels[row + ((offset[0] + x) * scale) as usize])
+            let row = (scale.at(offset[1] + y) * width) as usize;
+            (0..size[0]).map(move |x| &texels[row + scale.at(offset[0] + x) as usize])
         })
     }
 
@@ -294,7 +294,7 @@ impl Texels {
                 let ids: Vec<u32> = self
                     .pick::<8>(bytes)
                     .flat_map(|t| {
-                        let object = u32::from_le_bytes([t[0], t[1], t[2], t[3]]);
+                        let object = u32::from_le_bytes([t[0], t[1], t[2], t[3]]) & ID_OBJECT;
                         let material = u32::from(u16::from_le_bytes([t[4], t[5]]));
                         [object, material, u32::from(u16::from_le_bytes([t[6], t[7]]))]
                     })
@@ -348,8 +348,9 @@ fn tiles(size: [u32; 2], limit: u32, apron: u32) -> Vec<(Tile, Tile)> {
             .step_by(step as usize)
             .map(|start| {
                 let end = (start + step).min(length);
-                // Tiles begin at even pixels, since derivatives are taken over pairs of pixels.
-                let drawn = start.saturating_sub(apron) & !1;
+                // Tiles begin at even pixels, since derivatives are taken over pairs of pixels, and
+                // where a texel of the smallest detection does.
+                let drawn = start.saturating_sub(apron) / 6 * 6;
                 (drawn, (end + apron).min(length), start, end)
             })
             .collect()
@@ -379,7 +380,7 @@ mod tests {
                 assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron + 1));
                 for (axis, side) in size.into_iter().enumerate() {
                     let low = kept.origin[axis].saturating_sub(apron);
-                    assert!(drawn.origin[axis] <= low && drawn.origin[axis] % 2 == 0);
+                    assert!(drawn.origin[axis] <= low && drawn.origin[axis] % 6 == 0);
                     assert!(drawn.origin[axis] + drawn.size[axis] <= side);
                 }
                 for y in 0..kept.size[1] {

@@ -4,20 +4,23 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{
     RenderError,
-    frame::{Aim, Output, Tile, frame_values, gbuffer_scale, viewport},
+    frame::{Aim, Output, Tile, frame_values, gbuffer_scale, has_line_colors, viewport},
     generated::Light,
     gpu::{scope, timing::Timer},
     layouts::Layouts,
     passes::{
-        candidates::CandidatePass,
+        candidates::{CandidatePass, lines_group},
         composite::CompositePass,
         deform::DeformPass,
+        depth::DepthPass,
         detect::DetectPass,
         gbuffer::GBufferPass,
+        link::{LinkPass, SizePass},
         paint::PaintPass,
         plain::{PlainPass, PlainTargets},
         reference::ReferencePass,
-        strokes::{StrokePass, stroke_group},
+        seams::SeamPass,
+        strokes::StrokePass,
     },
     picture::MAX_PICTURE_SIDE,
     prepare::{Prepared, lights::lights_in_view},
@@ -35,7 +38,11 @@ pub struct Renderer {
     deform: DeformPass,
     gbuffer: GBufferPass,
     detect: DetectPass,
+    depth: DepthPass,
     candidates: CandidatePass,
+    seams: SeamPass,
+    link: LinkPass,
+    sizes: SizePass,
     strokes: StrokePass,
     reference: ReferencePass,
     paint: PaintPass,
@@ -93,7 +100,11 @@ impl Renderer {
                 deform: DeformPass::new(device, &layouts),
                 gbuffer: GBufferPass::new(device, &layouts),
                 detect: DetectPass::new(device),
+                depth: DepthPass::new(device),
                 candidates: CandidatePass::new(device, &layouts),
+                seams: SeamPass::new(device, &layouts),
+                link: LinkPass::new(device),
+                sizes: SizePass::new(device),
                 strokes: StrokePass::new(device, &layouts),
                 reference: ReferencePass::new(device, &layouts),
                 paint: PaintPass::new(device, &layouts),
@@ -200,24 +211,40 @@ impl Renderer {
             pixels: tile.size,
             paint_scale: view.supersample,
             gbuffer_scale: gbuffer_scale(prepared, view),
+            line_colors: has_line_colors(&prepared.style),
         });
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
         self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
-        self.detect.run(device, encoder, &prepared.frame, &targets, timer);
-        let group = || stroke_group(device, &self.layouts, prepared, &targets);
+        self.detect.run(device, encoder, prepared, &targets, timer);
+        self.paint.run(device, encoder, prepared, &targets, &aim, timer);
         match prepared.style.lines.method {
-            LineMethod::Contour => {
-                self.candidates.run(device, encoder, &self.layouts, prepared, &targets, timer);
-                self.strokes.run(encoder, prepared, &group(), &targets, timer);
-            }
+            LineMethod::Contour => self.draw_contours(encoder, prepared, &targets, timer),
             LineMethod::Reference => {
-                self.reference.run(encoder, prepared, &group(), &targets, timer);
+                self.reference.run(device, encoder, &self.layouts, prepared, &targets, timer);
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
-        self.paint.run(device, encoder, prepared, &targets, &aim, timer);
         targets
+    }
+
+    /// Lines of the mesh and of the picture → pieces → strokes.
+    fn draw_contours(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        targets: &Targets,
+        timer: &mut Timer,
+    ) {
+        let device = &self.device;
+        if let Some(depth) = &targets.picture_depth {
+            self.depth.run(device, encoder, &prepared.frame, targets, depth, timer);
+        }
+        let lines = lines_group(device, &self.layouts, prepared, targets);
+        self.candidates.run(encoder, prepared, &lines, targets, timer);
+        self.seams.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
+        self.link.run(device, encoder, &self.sizes, prepared, targets, timer);
+        self.strokes.run(device, encoder, &self.layouts, prepared, targets, timer);
     }
 
     /// Writes the frame's uniform and the lights as this camera sees them.

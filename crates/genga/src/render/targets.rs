@@ -8,10 +8,18 @@ pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth3
 pub(crate) const NORMAL_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Object; material and user line. Written by `gbuffer`, read by `detect` and `strokes`.
 pub(crate) const IDS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint;
-/// LINE_* bits. Written by `detect`, read by `strokes` and `composite`.
+/// Displayed base colour. Written by `gbuffer`, read by `candidates`.
+pub(crate) const BASE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Depth of the picture where detection's own is smaller. Written by `depth`, read by `candidates`
+/// and `strokes`.
+pub(crate) const PICTURE_DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
+/// LINE_* bits. Written by `detect`, read by `reference` and `composite`.
 pub(crate) const MASK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Coverage of the line sets, one a channel. Written by `strokes`, read by `composite`.
 pub(crate) const COVERAGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Base colour and ramp coordinate of the nearest stroke's surface. Written by `strokes` where a
+/// line set takes its colour from there, read by `composite`.
+pub(crate) const LINE_COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 /// The benchmark's baseline. Written by `plain`.
 pub(crate) const PLAIN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -28,7 +36,48 @@ pub(crate) struct TargetSize {
     /// Paint texels per pixel along each axis.
     pub(crate) paint_scale: u32,
     /// G-buffer texels per pixel along each axis.
-    pub(crate) gbuffer_scale: u32,
+    pub(crate) gbuffer_scale: Scale,
+    /// Whether line sets take their colour from surfaces.
+    pub(crate) line_colors: bool,
+}
+
+/// Texels per pixel along each axis, as a fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Scale {
+    pub(crate) texels: u32,
+    pub(crate) pixels: u32,
+}
+
+impl Scale {
+    pub(crate) fn whole(texels: u32) -> Self {
+        Self { texels, pixels: 1 }
+    }
+
+    pub(crate) fn factor(self) -> f32 {
+        self.texels as f32 / self.pixels as f32
+    }
+
+    /// Texels that cover so many pixels.
+    pub(crate) fn of(self, pixels: u32) -> u32 {
+        (pixels * self.texels).div_ceil(self.pixels)
+    }
+
+    /// The texel that the middle of a pixel lies in.
+    pub(crate) fn at(self, pixel: u32) -> u32 {
+        (2 * pixel + 1) * self.texels / (2 * self.pixels)
+    }
+
+    /// Detection's picture is smaller than the drawn one.
+    pub(crate) fn is_small(self) -> bool {
+        self.texels < self.pixels
+    }
+}
+
+impl TargetSize {
+    /// Size of the G-buffer in texels.
+    pub(crate) fn gbuffer(self) -> [u32; 2] {
+        self.pixels.map(|n| self.gbuffer_scale.of(n))
+    }
 }
 
 /// A texture with its view.
@@ -50,6 +99,17 @@ pub(crate) struct Targets {
     pub(crate) depth: Target,
     pub(crate) mask: Target,
     pub(crate) coverage: Target,
+    pub(crate) base: Target,
+    /// Where the G-buffer's own depth is too small.
+    pub(crate) picture_depth: Option<Target>,
+    /// Colours of strokes with their depth.
+    pub(crate) line_colors: Option<[Target; 2]>,
+    /// What stands for `line_colors` where there are none.
+    pub(crate) no_colors: Target,
+    /// See `marks` in `shaders/lib/line.wesl`.
+    pub(crate) marks: wgpu::Buffer,
+    /// See `seam_texels` in `shaders/passes/detect.wesl`.
+    pub(crate) seam_texels: wgpu::Buffer,
 }
 
 /// A 2-D texture with its view.
@@ -76,11 +136,25 @@ pub(crate) fn target(
 }
 
 impl Targets {
+    /// Depth of the picture, a texel a pixel.
+    pub(crate) fn full_depth(&self) -> &wgpu::TextureView {
+        self.picture_depth.as_ref().map_or(&self.depth.view, |target| &target.view)
+    }
+
     pub(crate) fn new(device: &wgpu::Device, size: TargetSize) -> Self {
         use wgpu::TextureUsages as Usage;
         let scaled = |scale: u32| size.pixels.map(|n| n * scale);
         let paint = scaled(size.paint_scale);
-        let gbuffer = scaled(size.gbuffer_scale);
+        let gbuffer = size.gbuffer();
+        let texels = gbuffer.map(|n| n as usize).iter().product::<usize>();
+        let stored = |label, bytes: usize| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes as u64,
+                usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
         let drawn = Usage::RENDER_ATTACHMENT;
         let read = drawn | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
         let mask_usage = Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
@@ -90,12 +164,33 @@ impl Targets {
             paint_samples: (samples > 1)
                 .then(|| target(device, "paint samples", paint, samples, PAINT_FORMAT, drawn)),
             paint: target(device, "paint", paint, 1, PAINT_FORMAT, read),
-            paint_depth: target(device, "paint depth", paint, samples, DEPTH_FORMAT, drawn),
+            paint_depth: target(
+                device,
+                "paint depth",
+                paint,
+                samples,
+                DEPTH_FORMAT,
+                drawn | Usage::TEXTURE_BINDING,
+            ),
             normal: target(device, "normals", gbuffer, 1, NORMAL_FORMAT, read),
             ids: target(device, "ids", gbuffer, 1, IDS_FORMAT, read),
             depth: target(device, "depth", gbuffer, 1, DEPTH_FORMAT, read),
             mask: target(device, "line mask", gbuffer, 1, MASK_FORMAT, mask_usage),
             coverage: target(device, "line coverage", size.pixels, 1, COVERAGE_FORMAT, read),
+            base: target(device, "base colours", gbuffer, 1, BASE_FORMAT, read),
+            picture_depth: size.gbuffer_scale.is_small().then(|| {
+                target(device, "picture depth", size.pixels, 1, PICTURE_DEPTH_FORMAT, read)
+            }),
+            line_colors: size.line_colors.then(|| {
+                [
+                    target(device, "line colours", size.pixels, 1, LINE_COLOR_FORMAT, read),
+                    target(device, "line depth", size.pixels, 1, DEPTH_FORMAT, drawn),
+                ]
+            }),
+            no_colors: target(device, "no line colours", [1, 1], 1, LINE_COLOR_FORMAT, read),
+            marks: stored("marked texels", 4 * texels.div_ceil(32)),
+            // A quarter of all texels is far more than pictures have.
+            seam_texels: stored("seam texels", 4 * (texels / 4 + 64)),
         }
     }
 }

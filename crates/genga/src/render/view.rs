@@ -208,13 +208,15 @@ pub struct View {
     pub supersample: u32,
     /// Whether the style's background is drawn; otherwise the picture is transparent there.
     pub background: bool,
+    /// Number of the frame in an animation, for lines that are drawn anew every few frames.
+    pub frame: u32,
 }
 
 impl View {
     /// A view with the style's background and the stills' default of 2 texels per pixel.
     #[must_use]
     pub fn new(camera: ViewCamera, size: [u32; 2]) -> Self {
-        Self { camera, size, supersample: 2, background: true }
+        Self { camera, size, supersample: 2, background: true, frame: 0 }
     }
 }
 

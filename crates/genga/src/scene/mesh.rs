@@ -32,6 +32,9 @@ pub struct Primitive {
     pub weights: Vec<[f32; 4]>,
     /// `_LINE_WIDTH`: factor on the width of lines, ≥ 0; empty for 1.
     pub line_widths: Vec<f32>,
+    /// `_LINE_ID`: user line id, 0 to 65535; a triangle has the one that most of its corners have.
+    /// Empty for 0.
+    pub line_ids: Vec<u32>,
     /// Triangles: three indices each, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Index into [`super::Scene::materials`]; `None` for the default material.

@@ -221,6 +221,7 @@ impl Scene {
                 length("joints", primitive.joints.len(), true)?;
                 length("joint weights", primitive.weights.len(), true)?;
                 length("line widths", primitive.line_widths.len(), true)?;
+                length("line ids", primitive.line_ids.len(), true)?;
                 if primitive.joints.len() != primitive.weights.len() {
                     length("joint weights", primitive.weights.len(), false)?;
                 }

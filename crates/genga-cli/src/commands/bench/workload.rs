@@ -90,6 +90,7 @@ fn case(args: &BenchArgs, workload: &str, scene: Scene, size: [u32; 2]) -> Outco
         size,
         supersample: args.supersample,
         background: true,
+        frame: 0,
     };
     let (workload, style_name) = (workload.to_owned(), chosen.name);
     Ok(Job::Frames(Box::new(Case { workload, scene, style_name, style, view })))

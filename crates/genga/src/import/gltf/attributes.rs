@@ -108,6 +108,15 @@ impl<'a> Attributes<'a, '_> {
         Ok(widths)
     }
 
+    /// `_LINE_ID`: whole numbers from 0 to 65535.
+    pub(super) fn line_ids(&self) -> Result<Vec<u32>, Problem> {
+        let Some(accessor) = self.accessor("_LINE_ID", &[Shape::Scalar])? else {
+            return Ok(Vec::new());
+        };
+        // A float becomes an integer by saturation; NaN becomes 0.
+        Ok(accessor.floats::<f32>().into_iter().map(|id| u32::from(id.round() as u16)).collect())
+    }
+
     /// The four strongest influences of each vertex over all sets; their weights add up to 1.
     pub(super) fn influences(&self) -> Result<Influences, Problem> {
         let mut sets: Vec<(Vec<u32>, Vec<[f32; 4]>)> = Vec::new();

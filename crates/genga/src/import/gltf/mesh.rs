@@ -108,6 +108,7 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
         uvs: attributes.uvs()?,
         colors: attributes.colors()?,
         line_widths: attributes.line_widths()?,
+        line_ids: attributes.line_ids()?,
         joints,
         weights,
         positions,
@@ -221,6 +222,7 @@ fn remove_unused_vertices(primitive: &mut Primitive) {
     retain(&mut primitive.joints, &used);
     retain(&mut primitive.weights, &used);
     retain(&mut primitive.line_widths, &used);
+    retain(&mut primitive.line_ids, &used);
     for target in &mut primitive.morph_targets {
         retain(&mut target.positions, &used);
         retain(&mut target.normals, &used);

@@ -7,22 +7,28 @@ var<uniform> frame: Frame;
 var<storage, read> draws: array<Draw>;
 
 @group(0) @binding(2)
-var<storage, read_write> segments: array<Segment>;
+var<storage, read_write> pieces: array<Piece>;
 
 @group(0) @binding(3)
-var<storage, read_write> arguments: array<atomic<u32>, 5>;
+var<storage, read_write> counters: array<atomic<u32>>;
 
 @group(0) @binding(4)
-var mask: texture_2d<u32>;
+var<uniform> lights: array<Light, 16>;
 
 @group(0) @binding(5)
-var ids: texture_2d<u32>;
+var depths: texture_2d<f32>;
 
 @group(0) @binding(6)
-var depths: texture_depth_2d;
+var ids: texture_2d<u32>;
 
 @group(0) @binding(7)
 var normals: texture_2d<f32>;
+
+@group(0) @binding(8)
+var base_colors: texture_2d<f32>;
+
+@group(0) @binding(9)
+var<storage, read_write> marks: array<atomic<u32>>;
 
 @group(1) @binding(0)
 var<storage, read> world: array<WorldVertex>;
@@ -31,15 +37,49 @@ var<storage, read> world: array<WorldVertex>;
 var<storage, read> edges: array<Edge>;
 
 @group(1) @binding(2)
+var<storage, read> indices: array<u32>;
+
+@group(1) @binding(3)
+var<storage, read> rest: array<RestVertex>;
+
+@group(1) @binding(4)
 var<uniform> range: StrokeRange;
 
-const AGREEMENT: u32 = 3u;
+const CLEARLY_COVERED: f32 = 24.0;
+
+const COUNT_PIECES: u32 = 0u;
+
+const CREASE_GROWTH: f32 = 0.15;
 
 const DRAW_DOUBLE_SIDED: u32 = 16u;
 
 const DRAW_MIRRORED: u32 = 8u;
 
+const EDGE_HALF: u32 = 1073741823u;
+
+const EDGE_HARD: u32 = 1073741824u;
+
+const EDGE_MATERIAL: u32 = 2147483648u;
+
+const EDGE_NONE: u32 = 1073741823u;
+
+const EDGE_USER: u32 = 1073741824u;
+
+const EDGE_UV_SEAM: u32 = 2147483648u;
+
+const FRAME_LINE_COLORS: u32 = 128u;
+
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
+const ID_OBJECT: u32 = 16777215u;
+
+const ID_SETS_SHIFT: u32 = 24u;
+
+const ID_THROUGH_SHIFT: u32 = 28u;
+
+const LIGHT_DIRECTIONAL: u32 = 0u;
+
+const LIGHT_SPOT: u32 = 2u;
 
 const LINE_BORDER: u32 = 16u;
 
@@ -53,23 +93,48 @@ const LINE_SILHOUETTE: u32 = 1u;
 
 const LINE_USER: u32 = 32u;
 
-const MASK_CREASE_SHIFT: u32 = 16u;
-
-const MASK_SILHOUETTE_SHIFT: u32 = 8u;
+const LINE_UV_SEAM: u32 = 64u;
 
 const MAX_LOOKUPS: f32 = 24000.0;
 
-const NO_VERTEX: u32 = 4294967295u;
+const PIECE_COVERED_A: u32 = 256u;
 
-const PIECE: u32 = 8u;
+const PIECE_COVERED_B: u32 = 512u;
+
+const PIECE_LOOKUPS: u32 = 8u;
+
+const SET_HIDDEN: u32 = 1u;
+
+const SLACK: f32 = 1.0;
 
 const STEP: f32 = 2.0;
 
+struct Corner {
+    p: vec3f,
+    n: vec3f,
+    facing: f32,
+    width: f32,
+    curvature: f32,
+    index: u32
+}
+
+struct Crossing {
+    p: vec3f,
+    n: vec3f,
+    rest: vec3f,
+    width: f32,
+    curvature: f32
+}
+
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Draw {
@@ -86,24 +151,26 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_sets: u32
+    line_width: f32
 }
 
 struct Edge {
-    v0: u32,
-    v1: u32,
     left: u32,
     right: u32
 }
 
 struct Found {
     sets: u32,
-    width: f32
+    width: f32,
+    covered: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -117,11 +184,25 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
+}
+
+struct Light {
+    position: vec4f,
+    direction: vec4f,
+    factors: vec4f,
+    kind: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Line {
@@ -129,42 +210,91 @@ struct Line {
     b: vec2f,
     depth_a: f32,
     depth_b: f32,
-    width_a: f32,
-    width_b: f32,
-    types: u32
+    outward: vec2f,
+    reach: f32,
+    own_depth: f32,
+    types: u32,
+    known: u32,
+    crease: f32,
+    owner: u32,
+    material: u32,
+    look_width: f32,
+    widths: vec2f,
+    curvatures: vec2f,
+    lights: vec2f,
+    rest_a: vec3f,
+    rest_b: vec3f,
+    key_a: vec2u,
+    key_b: vec2u,
+    order: u32
 }
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
-struct MaskSample {
-    types: u32,
-    strength: f32
-}
-
-struct Segment {
+struct Piece {
     a: vec2f,
     b: vec2f,
     depth_a: f32,
     depth_b: f32,
-    width_a: f32,
-    width_b: f32,
-    draw: u32,
-    line_sets: u32,
-    reserved_0: u32,
-    reserved_1: u32
+    widths: u32,
+    curvatures: u32,
+    rest_ax: f32,
+    rest_ay: f32,
+    rest_az: f32,
+    rest_bx: f32,
+    rest_by: f32,
+    rest_bz: f32,
+    base_a: u32,
+    base_b: u32,
+    key_a0: u32,
+    key_a1: u32,
+    key_b0: u32,
+    key_b1: u32,
+    sets: u32,
+    owner: u32,
+    order: u32,
+    link_a: u32,
+    link_b: u32,
+    reserved: u32
+}
+
+struct RestVertex {
+    x: f32,
+    y: f32,
+    z: f32,
+    normal: u32,
+    smooth_normal: u32,
+    line: u32,
+    joints_01: u32,
+    joints_23: u32,
+    weights_01: u32,
+    weights_23: u32
 }
 
 struct StrokeRange {
     world_first: u32,
+    rest_first: u32,
+    index_first: u32,
     first: u32,
     count: u32,
-    draw: u32
+    draw: u32,
+    order_first: u32,
+    reserved: u32
 }
 
 struct WorldVertex {
@@ -173,17 +303,44 @@ struct WorldVertex {
     z: f32,
     normal: u32,
     smooth_normal: u32,
-    line_width: f32
+    line: u32
 }
 
-fn append(line: Line, t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32) {
-    let slot = atomicAdd(&arguments[4], 1u);
-    if (slot < arrayLength(&segments)) {
-        segments[slot] = Segment(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), width_0 * mix(line.width_a, line.width_b, t0), width_1 * mix(line.width_a, line.width_b, t1), range.draw, sets, 0u, 0u);
+fn append(t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32, before: u32) -> u32 {
+    let slot = atomicAdd(&counters[COUNT_PIECES], 1u);
+    if (slot >= arrayLength(&pieces)) {
+        return 0u;
     }
+    let s0 = in_space(t0);
+    let s1 = in_space(t1);
+    let rest_0 = mix(line.rest_a, line.rest_b, s0);
+    let rest_1 = mix(line.rest_a, line.rest_b, s1);
+    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(width_0 * mix(line.widths.x, line.widths.y, s0), width_1 * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), select(0u, line.key_a.x, t0 <= 0.0), select(0u, line.key_a.y, t0 <= 0.0), select(0u, line.key_b.x, t1 >= 1.0), select(0u, line.key_b.y, t1 >= 1.0), sets, line.owner, line.order, before, 0u, 0u);
+    if (before != 0u) {
+        pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
+    }
+    return 2u * slot + 2u;
 }
 
-fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
+fn base_at(t: f32, light: f32) -> u32 {
+    if ((frame.flags & FRAME_LINE_COLORS) == 0u) {
+        return 0u;
+    }
+    let p_px = mix(line.a, line.b, t) - line.outward;
+    let size = vec2i(textureDimensions(ids));
+    var texel = texel_of(p_px);
+    let corner = texel - 1;
+    for (var i = 0; i < 9; i++) {
+        let at = clamp(corner + vec2i(i % 3, i / 3), vec2i(0), size - 1);
+        if ((textureLoad(ids, texel, 0).x & ID_OBJECT) == (line.owner & ID_OBJECT)) {
+            break;
+        }
+        texel = at;
+    }
+    return pack4x8unorm(vec4f(textureLoad(base_colors, texel, 0).rgb, light));
+}
+
+fn behind_in_pixels(frame: Frame, line_depth: f32, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
         return (line_depth - surface) / frame.pixel_footprint;
@@ -193,31 +350,79 @@ fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
     return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
-fn candidate_types(edge: Edge, flags: u32, p0: vec3f, p1: vec3f) -> u32 {
-    let to_eye = facing_vector(frame, p0);
-    let side = select(1.0, -1.0, (flags & DRAW_MIRRORED) != 0u);
-    let two_sided = (flags & DRAW_DOUBLE_SIDED) != 0u;
-    let left_normal = cross(p1 - p0, world_position(edge.left) - p0);
-    let left_faces = side * dot(left_normal, to_eye) > 0.0;
-    if (edge.right == NO_VERTEX) {
-        let all_types = LINE_SILHOUETTE | LINE_CREASE | LINE_OBJECT | LINE_MATERIAL | LINE_BORDER | LINE_USER;
-        return select(0u, all_types, left_faces || two_sided);
+fn change_between(from_t: f32, to_t: f32, from_sets: u32, to_sets: u32) -> f32 {
+    var low = from_t;
+    var high = to_t;
+    for (var i = 0; i < 3; i++) {
+        let middle = 0.5 * (low + high);
+        if (look_up(middle).sets == to_sets) {
+            high = middle;
+        }
+        else {
+            low = middle;
+        }
     }
-    let right_normal = cross(p0 - p1, world_position(edge.right) - p1);
-    let right_faces = side * dot(right_normal, to_eye) > 0.0;
-    if (!left_faces && !right_faces && !two_sided) {
-        return 0u;
+    return 0.5 * (low + high);
+}
+
+fn corner_at(index: u32) -> Corner {
+    let vertex = world[range.world_first + index];
+    let p = vec3f(vertex.x, vertex.y, vertex.z);
+    let n = octahedral_unpack(vertex.normal);
+    let attributes = unpack2x16float(vertex.line);
+    return Corner(p, n, dot(n, facing_vector(frame, p)), attributes.x, attributes.y, index);
+}
+
+fn corner_index(half: u32) -> u32 {
+    return indices[range.index_first + half];
+}
+
+fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
+    let size = vec2i(textureDimensions(depths));
+    let local = p_px - frame.tile_origin - 0.5;
+    let corner = vec2i(floor(local));
+    let part = local - vec2f(corner);
+    var least = 1e30;
+    let nearest = vec2i(select(vec2f(0.0), vec2f(1.0), part > vec2f(0.5)));
+    for (var i = 0; i < 4; i++) {
+        let pick = (vec2i(i & 1, i >> 1) + nearest) & vec2i(1);
+        let at = clamp(corner + pick, vec2i(0), size - 1);
+        least = min(least, behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x));
+        if (least < slack) {
+            return 0.0;
+        }
     }
-    var types = 0u;
-    if (left_faces != right_faces) {
-        types |= LINE_SILHOUETTE | LINE_OBJECT | LINE_MATERIAL | LINE_USER;
+    for (var i = 0; i < 4; i++) {
+        let pick = vec2i(i & 1, i >> 1);
+        let at = clamp(corner + pick, vec2i(0), size - 1);
+        let away = clamp(at + 2 * pick - 1, vec2i(0), size - 1);
+        let depth = textureLoad(depths, at, 0).x;
+        let offset = abs(vec2f(pick) - part);
+        let gone = depth + (depth - textureLoad(depths, vec2i(away.x, at.y), 0).x) * offset.x + (depth - textureLoad(depths, vec2i(at.x, away.y), 0).x) * offset.y;
+        least = min(least, behind_in_pixels(frame, line_depth, gone));
+        if (least < slack) {
+            return 0.0;
+        }
     }
-    let product = dot(left_normal, right_normal);
-    let lengths = sqrt(dot(left_normal, left_normal)) * sqrt(dot(right_normal, right_normal));
-    if (product < frame.detect.crease_cos * lengths) {
-        types |= LINE_CREASE | LINE_USER;
+    return least;
+}
+
+fn crossing(u: Corner, v: Corner) -> Crossing {
+    let swapped = u.p.x > v.p.x || (u.p.x == v.p.x && (u.p.y > v.p.y || (u.p.y == v.p.y && u.p.z > v.p.z)));
+    var a = u;
+    var b = v;
+    if (swapped) {
+        a = v;
+        b = u;
     }
-    return types;
+    let s = a.facing / (a.facing - b.facing);
+    return Crossing(mix(a.p, b.p, s), mix(a.n, b.n, s), mix(rest_position(a.index), rest_position(b.index), s), mix(a.width, b.width, s), mix(a.curvature, b.curvature, s));
+}
+
+fn depth_at(p_px: vec2f) -> f32 {
+    let size = vec2i(textureDimensions(depths));
+    let at = clamp(vec2i(floor(p_px - frame.tile_origin)), vec2i(0), size - 1);
+    return textureLoad(depths, at, 0).x;
 }
 
 fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
@@ -231,6 +436,45 @@ fn facing_vector(frame: Frame, p_in_world: vec3f) -> vec3f {
     return frame.eye.xyz - p_in_world * frame.eye.w;
 }
 
+fn following(half: u32) -> u32 {
+    return select(half + 1u, half - 2u, half % 3u == 2u);
+}
+
+fn in_space(t: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return t;
+    }
+    return t * line.depth_b / max(mix(line.depth_a, line.depth_b, t), 1e-30);
+}
+
+fn key_of(p: vec3f) -> vec2u {
+    let bits = bitcast<vec3u>(p + vec3f(0.0));
+    let first = mixed(mixed(mixed(2654435769u, bits.x), bits.y), bits.z);
+    let second = mixed(mixed(mixed(2246822507u, bits.z), bits.x), bits.y);
+    return vec2u(first | 1u, second);
+}
+
+fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+    let factors = light.factors;
+    let direction = light.direction.xyz;
+    if (light.kind == LIGHT_DIRECTIONAL) {
+        return factors.x * dot(normal, direction);
+    }
+    let offset = light.position.xyz - p_in_world;
+    let distance_squared = max(dot(offset, offset), 1e-12);
+    let to_light = offset * inverseSqrt(distance_squared);
+    var falloff = 1.0;
+    if (factors.y > 0.0) {
+        let ratio = distance_squared / (factors.y * factors.y);
+        falloff = saturate(1.0 - ratio * ratio);
+    }
+    if (light.kind == LIGHT_SPOT) {
+        let cosine = dot(-to_light, direction);
+        falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
+    }
+    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
+}
+
 fn line_depth(clip: vec4f) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return distance_from_depth(frame, clip.z);
@@ -238,88 +482,139 @@ fn line_depth(clip: vec4f) -> f32 {
     return 1.0 / clip.w;
 }
 
-fn look_up(line: Line, t: f32) -> Found {
-    let nothing = Found(0u, 0.0);
+fn lit(p: vec3f, normal: vec3f) -> f32 {
+    var sum = 0.0;
+    let unit = normalize(normal + vec3f(0.0, 0.0, 1e-20));
+    for (var i = 0u; i < frame.light_count; i++) {
+        sum += light_share(lights[i], p, unit);
+    }
+    return saturate(0.5 + 0.5 * clamp(sum, -1.0, 1.0));
+}
+
+fn look_up(t: f32) -> Found {
+    let nothing = Found(0u, 0.0, 0.0);
     let p_px = mix(line.a, line.b, t);
     if (any(p_px < vec2f(0.0)) || any(p_px > frame.picture_size)) {
         return nothing;
     }
-    let sample = mask_around(p_px, line.types);
-    if (sample.types == 0u) {
-        return nothing;
+    let line_depth = mix(line.depth_a, line.depth_b, t);
+    var metres = frame.pixel_footprint;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
+        metres /= max(line_depth, 1e-30);
     }
-    let owner = owner_width(p_px, mix(line.depth_a, line.depth_b, t), draws[range.draw].object_id);
-    let width = sample.strength * owner;
-    if (width <= 0.0) {
-        return nothing;
+    let covered = covered_by(p_px, line_depth, SLACK + line.own_depth / metres);
+    var types = line.known;
+    var strength = select(0.0, 1.0, (types & ~LINE_CREASE) != 0u);
+    if ((types & LINE_CREASE) != 0u) {
+        strength = max(strength, line.crease);
     }
-    let types = sample.types | (line.types & LINE_BORDER);
+    var through = 0u;
+    if (covered > 0.0) {
+        types |= line.types & LINE_SILHOUETTE;
+        strength = 1.0;
+        through = textureLoad(ids, texel_of(p_px), 0).x >> ID_THROUGH_SHIFT;
+    }
+    else if ((line.types & LINE_SILHOUETTE) != 0u) {
+        let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
+        let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
+        if (threshold > 0.0 && step > threshold) {
+            types |= LINE_SILHOUETTE;
+            strength = max(strength, min(step / threshold - 1.0, 1.0));
+        }
+        let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
+        let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
+        var identities = 0u;
+        if ((beyond.x & ID_OBJECT) != (line.owner & ID_OBJECT)) {
+            identities |= LINE_OBJECT;
+        }
+        if ((beyond.y & 65535u) != line.material) {
+            identities |= LINE_MATERIAL;
+        }
+        identities &= frame.detect.sources;
+        if (identities != 0u) {
+            types |= identities;
+            strength = 1.0;
+        }
+    }
+    let own_sets = line.owner >> ID_SETS_SHIFT;
     var sets = 0u;
     for (var i = 0u; i < frame.line_set_count; i++) {
-        if ((frame.line_sets[i].types & types) != 0u) {
+        let is_hidden_set = (frame.line_sets[i].flags & SET_HIDDEN) != 0u;
+        let is_covered = covered > 0.0 && ((through >> i) & 1u) == 0u;
+        if ((frame.line_sets[i].types & types) != 0u && is_hidden_set == is_covered) {
             sets |= 1u << i;
         }
     }
-    return Found(sets & draws[range.draw].line_sets, width);
-}
-
-fn mask_around(p_px: vec2f, wanted: u32) -> MaskSample {
-    let size = vec2i(textureDimensions(mask));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    var types = 0u;
-    var strength = 0u;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(texel - vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        let bits = textureLoad(mask, at, 0).x;
-        types |= bits & wanted & 255u;
-        strength = max(strength, mask_strength(bits, wanted));
+    sets &= own_sets & 15u;
+    if (sets == 0u) {
+        return Found(0u, 0.0, covered);
     }
-    return MaskSample(types, f32(strength) / 255.0);
+    let width = strength * look_width(p_px, covered > 0.0);
+    return Found(select(0u, sets, width > 0.0), width, covered);
 }
 
-fn mask_strength(bits: u32, wanted: u32) -> u32 {
-    let found = bits & wanted & 255u;
-    var strength = 0u;
-    if ((found & LINE_SILHOUETTE) != 0u) {
-        strength = (bits >> MASK_SILHOUETTE_SHIFT) & 255u;
+fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
+    if (line.look_width >= 0.0) {
+        return line.look_width;
     }
-    if ((found & LINE_CREASE) != 0u) {
-        strength = max(strength, (bits >> MASK_CREASE_SHIFT) & 255u);
-    }
-    return select(strength, 255u, (found & ~(LINE_SILHOUETTE | LINE_CREASE)) != 0u);
-}
-
-fn mean_width(sum: f32, count: f32, last: f32) -> f32 {
-    return select(max(last, 0.0), sum / max(count, 1.0), count > 0.0);
-}
-
-fn owner_width(p_px: vec2f, line_depth: f32, object: u32) -> f32 {
-    let size = vec2i(textureDimensions(depths));
+    let size = vec2i(textureDimensions(ids));
     let corner = vec2i(round((p_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
     var width = 0.0;
-    var behind_all = 1e30;
-    var own_range = vec2f(1e30, -1e30);
+    var seen = false;
     for (var i = 0; i < 4; i++) {
         let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        let behind = behind_in_pixels(line_depth, textureLoad(depths, at, 0));
-        behind_all = min(behind_all, behind);
-        if (textureLoad(ids, at, 0).x == object) {
-            own_range = vec2f(min(own_range.x, behind), max(own_range.y, behind));
+        if ((textureLoad(ids, at, 0).x & ID_OBJECT) == (line.owner & ID_OBJECT)) {
             width = max(width, textureLoad(normals, at, 0).a);
+            seen = true;
         }
     }
-    let slack = 16.0 + 2.0 * max(own_range.y - own_range.x, 0.0);
-    return select(0.0, width, behind_all < slack);
+    return select(select(1.0, 0.0, !is_covered), width, seen);
 }
 
-fn part_in_tile(a: vec2f, along: vec2f) -> vec2f {
+fn mark(p_px: vec2f) {
+    let size = vec2i(textureDimensions(ids));
+    let middle = texel_of(p_px);
+    for (var y = max(middle.y - 1, 0); y <= min(middle.y + 1, size.y - 1); y++) {
+        for (var x = max(middle.x - 1, 0); x <= min(middle.x + 1, size.x - 1); x++) {
+            let index = u32(y * size.x + x);
+            atomicOr(&marks[index >> 5u], 1u << (index & 31u));
+        }
+    }
+}
+
+fn mixed(a: u32, b: u32) -> u32 {
+    var h = (a ^ (a >> 16u)) * 2146121005u + b;
+    h = (h ^ (h >> 15u)) * 2221713035u;
+    return h ^ (h >> 16u);
+}
+
+fn octahedral_unpack(bits: u32) -> vec3f {
+    let p = unpack2x16snorm(bits);
+    var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) {
+        n = vec3f((1.0 - abs(n.yx)) * sign_not_zero(n.xy), n.z);
+    }
+    return normalize(n);
+}
+
+fn outward_from(inner: vec3f, mirror: bool) -> vec2f {
+    let along = line.b - line.a;
+    let side = normalize(vec2f(-along.y, along.x) + vec2f(0.0, 1e-20));
+    let clip = frame.clip_from_world * vec4f(inner, 1.0);
+    let toward = picture_from_clip(frame, clip) - line.a;
+    let sign = dot(toward, side) * select(1.0, -1.0, clip.w < 0.0);
+    return select(side, -side, sign > 0.0);
+}
+
+fn part_in_tile() -> vec2f {
     var radius = 0.0;
     for (var i = 0u; i < frame.line_set_count; i++) {
         radius = max(radius, frame.line_sets[i].radius);
     }
+    let along = line.b - line.a;
     let margin = vec2f(radius * frame.detect.max_width_factor + 2.0);
-    let low = frame.tile_origin - margin - a;
-    let high = frame.tile_origin + frame.tile_size + margin - a;
+    let low = frame.tile_origin - margin - line.a;
+    let high = frame.tile_origin + frame.tile_size + margin - line.a;
     var inside = vec2f(0.0, 1.0);
     for (var axis = 0; axis < 2; axis++) {
         if (abs(along[axis]) < 1e-6) {
@@ -340,112 +635,338 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
 }
 
-fn walk(line: Line) {
-    let along = line.b - line.a;
-    let lookups = u32(clamp(ceil(length(along) / STEP), 1.0, MAX_LOOKUPS));
-    let inside = part_in_tile(line.a, along);
-    if (inside.x >= inside.y) {
-        return;
-    }
-    let first = u32(floor(inside.x * f32(lookups)));
-    let end = min(u32(ceil(inside.y * f32(lookups))), lookups);
-    let needed = min(AGREEMENT, end - first);
-    var sets = 0u;
-    var start = first;
-    var pending = 0u;
-    var pending_count = 0u;
-    var width_sum = 0.0;
-    var width_count = 0.0;
-    var last_width = -1.0;
-    for (var i = first; i < end; i++) {
-        let found = look_up(line, (f32(i) + 0.5) / f32(lookups));
-        if (found.sets == sets) {
-            pending_count = 0u;
-        }
-        else if (found.sets == pending && pending_count > 0u) {
-            pending_count += 1u;
-        }
-        else {
-            pending = found.sets;
-            pending_count = 1u;
-        }
-        if (found.width > 0.0) {
-            width_sum += found.width;
-            width_count += 1.0;
-        }
-        let changes = pending_count >= needed;
-        if (changes || (i + 1u) % PIECE == 0u) {
-            let at = select(i + 1u, i + 1u - pending_count, changes);
-            let width = mean_width(width_sum, width_count, last_width);
-            if (sets != 0u && at > start) {
-                let width_0 = select(last_width, width, last_width < 0.0);
-                append(line, f32(start) / f32(lookups), f32(at) / f32(lookups), width_0, width, sets);
-                last_width = width;
-            }
-            start = at;
-            if (sets != 0u) {
-                width_sum = 0.0;
-                width_count = 0.0;
-            }
-        }
-        if (changes) {
-            if (sets == 0u || pending == 0u) {
-                last_width = -1.0;
-            }
-            sets = pending;
-            pending_count = 0u;
-            if (i + 1u - first <= needed) {
-                start = first;
-            }
-        }
-    }
-    if (sets != 0u && end > start) {
-        let width = mean_width(width_sum, width_count, last_width);
-        let width_0 = select(last_width, width, last_width < 0.0);
-        append(line, f32(start) / f32(lookups), f32(end) / f32(lookups), width_0, width, sets);
-    }
-}
-
-fn world_position(index: u32) -> vec3f {
+fn place(index: u32) -> vec3f {
     let vertex = world[range.world_first + index];
     return vec3f(vertex.x, vertex.y, vertex.z);
 }
 
-@compute @workgroup_size(1)
-fn finish_candidates() {
-    let count = min(atomicLoad(&arguments[4]), arrayLength(&segments));
-    atomicStore(&arguments[0], 6u * count);
-    atomicStore(&arguments[1], 1u);
-    atomicStore(&arguments[2], 0u);
-    atomicStore(&arguments[3], 0u);
-}
-
-@compute @workgroup_size(64)
-fn find_candidates(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    let index = id.x + id.y * groups.x * 64u;
-    if (index >= range.count) {
-        return;
-    }
-    let edge = edges[range.first + index];
-    let p0 = world_position(edge.v0);
-    let p1 = world_position(edge.v1);
-    let types = candidate_types(edge, draws[range.draw].flags, p0, p1);
-    if (types == 0u) {
-        return;
-    }
+fn project_ends(p0: vec3f, p1: vec3f) -> bool {
     var clip_a = frame.clip_from_world * vec4f(p0, 1.0);
     var clip_b = frame.clip_from_world * vec4f(p1, 1.0);
     let near = select(frame.depth_range.x, 0.0, (frame.flags & FRAME_ORTHOGRAPHIC) != 0u);
     if (clip_a.w < near && clip_b.w < near) {
-        return;
+        return false;
     }
     if (clip_a.w < near) {
         clip_a = mix(clip_a, clip_b, (near - clip_a.w) / (clip_b.w - clip_a.w));
+        line.key_a = vec2u(0u);
     }
     else if (clip_b.w < near) {
         clip_b = mix(clip_b, clip_a, (near - clip_b.w) / (clip_a.w - clip_b.w));
+        line.key_b = vec2u(0u);
     }
-    let width_a = world[range.world_first + edge.v0].line_width;
-    let width_b = world[range.world_first + edge.v1].line_width;
-    walk(Line(picture_from_clip(frame, clip_a), picture_from_clip(frame, clip_b), line_depth(clip_a), line_depth(clip_b), width_a, width_b, types));
+    line.a = picture_from_clip(frame, clip_a);
+    line.b = picture_from_clip(frame, clip_b);
+    line.depth_a = line_depth(clip_a);
+    line.depth_b = line_depth(clip_b);
+    return true;
 }
+
+fn rest_position(index: u32) -> vec3f {
+    let vertex = rest[range.rest_first + index];
+    return vec3f(vertex.x, vertex.y, vertex.z);
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn start_line(order: u32) {
+    line = Line();
+    line.owner = draws[range.draw].object_id;
+    line.material = draws[range.draw].material_id;
+    line.look_width = draws[range.draw].line_width;
+    line.order = order;
+}
+
+fn step_beyond(p_px: vec2f, line_depth: f32) -> f32 {
+    var largest = 0.0;
+    for (var away = 1.5; away < 64.0; away *= 2.0) {
+        let near = depth_at(p_px + away * line.outward);
+        if (near <= 0.0) {
+            return 1000000000.0;
+        }
+        let far = depth_at(p_px + (away + 1.5) * line.outward);
+        let gone = near + (near - far) * (away / 1.5);
+        let step = -max(behind_in_pixels(frame, line_depth, near), behind_in_pixels(frame, line_depth, gone));
+        largest = max(largest, step);
+        if (away >= line.reach) {
+            break;
+        }
+    }
+    return largest;
+}
+
+fn texel_of(p_px: vec2f) -> vec2i {
+    let size = vec2i(textureDimensions(ids));
+    let at = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    return clamp(at, vec2i(0), size - 1);
+}
+
+fn walk(before: u32) -> u32 {
+    let lookups = u32(clamp(ceil(length(line.b - line.a) / STEP), 1.0, MAX_LOOKUPS));
+    let inside = part_in_tile();
+    if (inside.x >= inside.y) {
+        return 0u;
+    }
+    let first = u32(floor(inside.x * f32(lookups)));
+    let end = min(u32(ceil(inside.y * f32(lookups))), lookups);
+    if (first >= end) {
+        return 0u;
+    }
+    var last = select(0u, before, first == 0u);
+    var start = f32(first) / f32(lookups);
+    var state = Found(0u, 0.0, 0.0);
+    var started_covered = 0.0;
+    var width_sum = 0.0;
+    var width_count = 0.0;
+    var last_width = -1.0;
+    for (var i = first; i <= end; i++) {
+        var found = state;
+        var cut = 1.0;
+        var is_over = i == end;
+        if (is_over) {
+            cut = f32(end) / f32(lookups);
+        }
+        else {
+            let t = (f32(i) + 0.5) / f32(lookups);
+            found = look_up(t);
+            if (found.sets != 0u && found.covered == 0.0) {
+                mark(mix(line.a, line.b, t));
+            }
+            if (i == first) {
+                state = found;
+                started_covered = found.covered;
+            }
+            cut = f32(i) / f32(lookups);
+            if (found.sets != state.sets) {
+                cut = change_between(t - 1.0 / f32(lookups), t, state.sets, found.sets);
+            }
+        }
+        let changes = found.sets != state.sets;
+        let is_long = state.sets != 0u && i > first && (i - first) % PIECE_LOOKUPS == 0u;
+        if (changes || is_over || is_long) {
+            let width = select(max(last_width, 0.0), width_sum / max(width_count, 1.0), width_count > 0.0);
+            let width_0 = select(last_width, width, last_width < 0.0);
+            if (cut > start) {
+                var flags = 0u;
+                if (started_covered > CLEARLY_COVERED) {
+                    flags |= PIECE_COVERED_A;
+                }
+                if (state.covered > CLEARLY_COVERED) {
+                    flags |= PIECE_COVERED_B;
+                }
+                last = append(start, cut, width_0, width, state.sets | flags, last);
+            }
+            start = cut;
+            started_covered = found.covered;
+            last_width = select(width, -1.0, changes && (state.sets == 0u || found.sets == 0u));
+            width_sum = 0.0;
+            width_count = 0.0;
+        }
+        state = found;
+        if (found.width > 0.0) {
+            width_sum += found.width;
+            width_count += 1.0;
+        }
+    }
+    return last;
+}
+
+@compute @workgroup_size(64)
+fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let number = id.x + id.y * groups.x * 64u;
+    if (number >= range.count) {
+        return;
+    }
+    let half = 3u * (range.first + number);
+    let i0 = corner_index(half);
+    let i1 = corner_index(half + 1u);
+    let i2 = corner_index(half + 2u);
+    let n0 = world[range.world_first + i0].normal;
+    let n1 = world[range.world_first + i1].normal;
+    let n2 = world[range.world_first + i2].normal;
+    if (n0 == n1 && n1 == n2) {
+        return;
+    }
+    let c0 = corner_at(i0);
+    let c1 = corner_at(i1);
+    let c2 = corner_at(i2);
+    let f0 = c0.facing > 0.0;
+    let f1 = c1.facing > 0.0;
+    let f2 = c2.facing > 0.0;
+    if (f0 == f1 && f1 == f2) {
+        return;
+    }
+    var lone = c0;
+    var next = c1;
+    var other = c2;
+    if (f0 == f2) {
+        lone = c1;
+        next = c2;
+        other = c0;
+    }
+    else if (f0 == f1) {
+        lone = c2;
+        next = c0;
+        other = c1;
+    }
+    let a = crossing(lone, next);
+    let b = crossing(lone, other);
+    start_line(range.order_first + number);
+    line.key_a = key_of(a.p);
+    line.key_b = key_of(b.p);
+    line.types = LINE_SILHOUETTE;
+    line.widths = vec2f(a.width, b.width);
+    line.curvatures = vec2f(a.curvature, b.curvature);
+    line.rest_a = a.rest;
+    line.rest_b = b.rest;
+    if (frame.light_count > 0u) {
+        line.lights = vec2f(lit(a.p, a.n), lit(b.p, b.n));
+    }
+    if (!project_ends(a.p, b.p)) {
+        return;
+    }
+    let middle = 0.5 * (a.p + b.p);
+    let toward = middle - (a.n + b.n) * (0.05 * length(c1.p - c0.p) + 1e-12);
+    line.outward = outward_from(toward, false);
+    let flags = draws[range.draw].flags;
+    let side = select(1.0, -1.0, (flags & DRAW_MIRRORED) != 0u);
+    let to_eye = facing_vector(frame, middle);
+    let unit_to_eye = to_eye * inverseSqrt(max(dot(to_eye, to_eye), 1e-30));
+    let heights = vec3f(dot(c0.p, unit_to_eye), dot(c1.p, unit_to_eye), dot(c2.p, unit_to_eye));
+    let highest = max(max(heights.x, heights.y), heights.z);
+    let lowest = min(min(heights.x, heights.y), heights.z);
+    let depth = highest - lowest;
+    let turns = vec3f(dot(c0.n, c1.n), dot(c1.n, c2.n), dot(c2.n, c0.n));
+    let turn = sqrt(max(2.0 - 2.0 * min(min(turns.x, turns.y), turns.z), 0.0));
+    let faces = side * dot(cross(c1.p - c0.p, c2.p - c0.p), to_eye) > 0.0;
+    line.own_depth = select(depth, 0.0, faces);
+    var metres = frame.pixel_footprint;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
+        metres /= max(line.depth_a, 1e-30);
+    }
+    line.reach = clamp(1.5 + 0.5 * depth * turn / metres, 1.5, 40.0);
+    walk(0u);
+}
+
+@compute @workgroup_size(64)
+fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let number = id.x + id.y * groups.x * 64u;
+    if (number >= range.count) {
+        return;
+    }
+    let edge = edges[range.first + number];
+    let left = edge.left & EDGE_HALF;
+    let right = edge.right & EDGE_HALF;
+    let i0 = corner_index(left);
+    let i1 = corner_index(following(left));
+    let third = place(corner_index(following(following(left))));
+    let c0 = corner_at(i0);
+    let c1 = corner_at(i1);
+    let flags = draws[range.draw].flags;
+    let two_sided = (flags & DRAW_DOUBLE_SIDED) != 0u;
+    let side = select(1.0, -1.0, (flags & DRAW_MIRRORED) != 0u);
+    let left_normal = side * cross(c1.p - c0.p, third - c0.p);
+    let sources = frame.detect.sources;
+    var known = 0u;
+    if ((edge.left & EDGE_MATERIAL) != 0u) {
+        known |= LINE_MATERIAL;
+    }
+    if ((edge.right & EDGE_USER) != 0u && right != EDGE_NONE) {
+        known |= LINE_USER;
+    }
+    if ((edge.right & EDGE_UV_SEAM) != 0u && right != EDGE_NONE) {
+        known |= LINE_UV_SEAM;
+    }
+    start_line(range.order_first + number);
+    var facing_left = vec2f(c0.facing, c1.facing);
+    var facing_right = -facing_left;
+    var right_third = third;
+    var right_normal = -left_normal;
+    if (right == EDGE_NONE) {
+        known |= LINE_BORDER;
+    }
+    else {
+        let r1 = corner_at(corner_index(right));
+        let r0 = corner_at(corner_index(following(right)));
+        right_third = place(corner_index(following(following(right))));
+        facing_right = vec2f(r0.facing, r1.facing);
+        right_normal = side * cross(c0.p - c1.p, right_third - c1.p);
+        if ((edge.left & EDGE_HARD) != 0u) {
+            let lengths = sqrt(dot(left_normal, left_normal)) * sqrt(dot(right_normal, right_normal));
+            let cosine = dot(left_normal, right_normal) / max(lengths, 1e-37);
+            if (cosine < frame.detect.crease_cos && lengths > 0.0) {
+                known |= LINE_CREASE;
+                line.crease = saturate((frame.detect.crease_cos - cosine) / CREASE_GROWTH);
+            }
+        }
+    }
+    known &= sources;
+    let is_hard = (edge.left & EDGE_HARD) != 0u || right == EDGE_NONE;
+    let left_changes = facing_left.x * facing_left.y < 0.0;
+    let right_changes = facing_right.x * facing_right.y < 0.0;
+    let can_be_silhouette = is_hard && (left_changes || right_changes || facing_left.x * facing_right.x < 0.0 || facing_left.y * facing_right.y < 0.0);
+    if (known == 0u && !can_be_silhouette) {
+        return;
+    }
+    var cuts = vec4f(0.0, 1.0, 1.0, 1.0);
+    if (is_hard && left_changes) {
+        cuts.y = facing_left.x / (facing_left.x - facing_left.y);
+    }
+    if (is_hard && right_changes && right != EDGE_NONE) {
+        cuts.z = facing_right.x / (facing_right.x - facing_right.y);
+    }
+    if (cuts.y > cuts.z) {
+        cuts = cuts.xzyw;
+    }
+    let rest_0 = rest_position(i0);
+    let rest_1 = rest_position(i1);
+    var light = vec2f(0.0);
+    if (frame.light_count > 0u) {
+        light = vec2f(lit(c0.p, c0.n), lit(c1.p, c1.n));
+    }
+    let all_known = known;
+    var before = 0u;
+    for (var i = 0; i < 3; i++) {
+        let s0 = cuts[i];
+        let s1 = cuts[i + 1];
+        if (s1 - s0 < 1e-6) {
+            continue;
+        }
+        let middle = 0.5 * (s0 + s1);
+        let left_faces = mix(facing_left.x, facing_left.y, middle) > 0.0;
+        let right_faces = mix(facing_right.x, facing_right.y, middle) > 0.0;
+        let is_border = right == EDGE_NONE;
+        let is_silhouette = is_hard && (left_faces != right_faces || is_border);
+        let is_seen = two_sided || left_faces || (right_faces && !is_border);
+        if (!is_seen || (all_known == 0u && !is_silhouette)) {
+            before = 0u;
+            continue;
+        }
+        line.known = all_known;
+        line.types = all_known | select(0u, LINE_SILHOUETTE, is_silhouette);
+        let p0 = mix(c0.p, c1.p, s0);
+        let p1 = mix(c0.p, c1.p, s1);
+        line.key_a = select(vec2u(0u), key_of(c0.p), s0 <= 0.0);
+        line.key_b = select(vec2u(0u), key_of(c1.p), s1 >= 1.0);
+        line.widths = vec2f(mix(c0.width, c1.width, s0), mix(c0.width, c1.width, s1));
+        line.curvatures = vec2f(mix(c0.curvature, c1.curvature, s0), mix(c0.curvature, c1.curvature, s1));
+        line.lights = vec2f(mix(light.x, light.y, s0), mix(light.x, light.y, s1));
+        line.rest_a = mix(rest_0, rest_1, s0);
+        line.rest_b = mix(rest_0, rest_1, s1);
+        if (!project_ends(p0, p1)) {
+            before = 0u;
+            continue;
+        }
+        line.outward = vec2f(0.0);
+        line.reach = 1.5;
+        if (is_silhouette) {
+            let inner = select(right_third, third, left_faces || is_border);
+            line.outward = outward_from(inner, false);
+        }
+        before = walk(before);
+    }
+}
+
+var<private> line: Line;

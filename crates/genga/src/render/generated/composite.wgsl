@@ -12,6 +12,9 @@ var coverage: texture_2d<f32>;
 @group(0) @binding(3)
 var mask: texture_2d<u32>;
 
+@group(0) @binding(4)
+var line_colors: texture_2d<f32>;
+
 const FRAME_BACKGROUND: u32 = 4u;
 
 const FRAME_LINEAR_BLEND: u32 = 1u;
@@ -38,16 +41,27 @@ const METHOD_IMAGE: u32 = 5u;
 
 const METHOD_REFERENCE: u32 = 2u;
 
+const SET_COLOR_BASE: u32 = 2u;
+
+const SET_COLOR_LIGHT: u32 = 4u;
+
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -61,19 +75,32 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
 fn display_from_linear(c: vec3f) -> vec3f {
@@ -100,6 +127,23 @@ fn encoded(color: vec4f) -> vec4f {
         straight = display_from_linear(straight);
     }
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
+}
+
+fn line_color(index: u32, pixel: vec2i) -> vec4f {
+    var color = frame.line_sets[index].color;
+    let flags = frame.line_sets[index].flags;
+    if ((flags & (SET_COLOR_BASE | SET_COLOR_LIGHT)) == 0u) {
+        return color;
+    }
+    let surface = textureLoad(line_colors, min(pixel, vec2i(textureDimensions(line_colors)) - 1), 0);
+    if ((flags & SET_COLOR_BASE) != 0u) {
+        var base = surface.rgb * frame.line_sets[index].darken;
+        if ((frame.flags & FRAME_LINEAR_BLEND) != 0u) {
+            base = linear_from_display(base);
+        }
+        return vec4f(base, color.a);
+    }
+    return mix(color, frame.line_sets[index].lit_color, surface.a);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -179,7 +223,7 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         }
         let count = select(0u, frame.line_set_count, any(ink > vec4f(0.0)));
         for (var i = 0u; i < count; i++) {
-            let line = frame.line_sets[i].color;
+            let line = line_color(i, pixel);
             let alpha = ink.x * line.a;
             color = over(vec4f(line.rgb * alpha, alpha), color);
             ink = ink.yzwx;

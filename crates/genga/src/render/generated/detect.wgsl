@@ -15,9 +15,19 @@ var depths: texture_depth_2d;
 @group(0) @binding(4)
 var mask: texture_storage_2d<r32uint, write>;
 
+@group(0) @binding(5)
+var<storage, read_write> seam_texels: array<u32>;
+
+@group(0) @binding(6)
+var<storage, read_write> counters: array<atomic<u32>>;
+
+const COUNT_SEAMS: u32 = 1u;
+
 const CREASE_GROWTH: f32 = 0.15;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
+const ID_OBJECT: u32 = 16777215u;
 
 const LINE_CREASE: u32 = 2u;
 
@@ -33,16 +43,29 @@ const MASK_CREASE_SHIFT: u32 = 16u;
 
 const MASK_SILHOUETTE_SHIFT: u32 = 8u;
 
+const MEETING: u32 = 128u;
+
+const METHOD_CONTOUR: u32 = 1u;
+
+const MIN_FACING: f32 = 0.1;
+
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -56,34 +79,47 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
-fn break_in_pixels(depth_b: f32, depth_c: f32, depth_q: f32) -> f32 {
-    let predicted = depth_c + (depth_c - depth_b);
-    let difference = abs(depth_q - predicted);
+struct Meeting {
+    meets: bool,
+    at: f32,
+    depth: f32
+}
+
+fn breaks(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, plane: vec2f) -> vec2f {
     let nearest = max(depth_q, depth_c);
     let distance = distance_from_depth(frame, nearest);
-    var metres: f32;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        metres = difference * (frame.depth_range.y - frame.depth_range.x);
-    }
-    else {
-        metres = difference * distance * distance / frame.depth_range.x;
-    }
-    return metres / (footprint(frame, distance) * max(frame.line_scale, 1.0));
+    let unit = footprint(frame, distance) * max(frame.line_scale, 1.0);
+    let second = min(abs(depth_q - depth_c - (depth_c - depth_b)), abs(depth_c - depth_q - (depth_q - depth_a)));
+    let from_plane = min(abs(depth_q - depth_c - plane.x), abs(depth_c - depth_q + plane.y));
+    return vec2f(metres(second, distance), metres(from_plane, distance)) / unit;
 }
 
 fn clamped(at: vec2i, size: vec2i) -> vec2i {
@@ -104,14 +140,15 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     if (width <= 0.0) {
         return 0u;
     }
+    let by_depth = frame.detect.depth > 0.0 || frame.detect.laplacian > 0.0;
     var bits = 0u;
     if (id_c.x == 0u || id_q.x == 0u) {
-        if (frame.detect.depth > 0.0) {
+        if (by_depth) {
             bits |= LINE_SILHOUETTE | (255u << MASK_SILHOUETTE_SHIFT);
         }
-        return bits | (LINE_OBJECT & frame.detect.identities);
+        return bits | (LINE_OBJECT & frame.detect.sources);
     }
-    if (id_c.x != id_q.x) {
+    if ((id_c.x & ID_OBJECT) != (id_q.x & ID_OBJECT)) {
         bits |= LINE_OBJECT;
     }
     if ((id_c.y & 65535u) != (id_q.y & 65535u)) {
@@ -120,18 +157,36 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
     if ((id_c.y >> 16u) != (id_q.y >> 16u)) {
         bits |= LINE_USER;
     }
-    bits &= frame.detect.identities;
+    bits &= frame.detect.sources;
     let step = q - c;
-    let before_c = textureLoad(depths, clamped(c - step, size), 0);
-    let after_q = textureLoad(depths, clamped(q + step, size), 0);
-    let broken = min(break_in_pixels(before_c, depth_c, depth_q), break_in_pixels(after_q, depth_q, depth_c));
-    let margin = broken / max(frame.detect.depth, 1e-6) - 1.0;
-    if (frame.detect.depth > 0.0 && margin > 0.0) {
-        bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
+    let depth_b = textureLoad(depths, clamped(c - step, size), 0);
+    let depth_a = textureLoad(depths, clamped(q + step, size), 0);
+    if (by_depth) {
+        var plane = vec2f(0.0);
+        if (frame.detect.depth > 0.0) {
+            plane = vec2f(plane_step(c, step, depth_c, normal_c.xyz), plane_step(q, step, depth_q, normal_q.xyz));
+        }
+        let broken = breaks(depth_b, depth_c, depth_q, depth_a, plane);
+        var margin = -1.0;
+        if (frame.detect.laplacian > 0.0) {
+            margin = broken.x / frame.detect.laplacian - 1.0;
+        }
+        if (frame.detect.depth > 0.0) {
+            margin = max(margin, broken.y / frame.detect.depth - 1.0);
+        }
+        if (margin > 0.0) {
+            bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
+        }
     }
     let turn = frame.detect.crease_cos - dot(normal_c.xyz, normal_q.xyz);
     if (turn > 0.0) {
         bits |= LINE_CREASE | (strength(turn / CREASE_GROWTH) << MASK_CREASE_SHIFT);
+    }
+    if ((bits & (LINE_OBJECT | LINE_MATERIAL | LINE_USER | LINE_CREASE)) != 0u) {
+        let found = meeting(depth_b, depth_c, depth_q, depth_a);
+        if (found.meets) {
+            bits |= MEETING;
+        }
     }
     return bits;
 }
@@ -150,9 +205,51 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
     return frame.pixel_footprint * distance;
 }
 
+fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
+    let slope_c = depth_c - depth_b;
+    let slope_q = depth_a - depth_q;
+    let at_c = depth_c - (depth_q - slope_q);
+    let at_q = depth_c + slope_c - depth_q;
+    let scale = max(depth_c, depth_q);
+    let middle = 0.5 * (depth_c + depth_q);
+    if (max(abs(at_c), abs(at_q)) < 2e-6 * scale) {
+        return Meeting(true, 0.5, middle);
+    }
+    let t = at_c / (at_c - at_q);
+    let meets = t > -0.25 && t < 1.25;
+    let inside = clamp(t, 0.0, 1.0);
+    return Meeting(meets, inside, depth_c + inside * slope_c);
+}
+
 fn merged(a: u32, b: u32) -> u32 {
     let bytes = vec2u(65280u, 16711680u);
     return ((a | b) & 255u) | max(a & bytes.x, b & bytes.x) | max(a & bytes.y, b & bytes.y);
+}
+
+fn metres(difference: f32, distance: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return difference * (frame.depth_range.y - frame.depth_range.x);
+    }
+    return difference * distance * distance / frame.depth_range.x;
+}
+
+fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
+    let right = vec3f(frame.camera_right.xyz);
+    let up = vec3f(frame.camera_up.xyz);
+    let back = vec3f(frame.camera_back.xyz);
+    let n = vec3f(dot(normal, right), dot(normal, up), dot(normal, back));
+    let pixel = (vec2f(at) + 0.5) / frame.gbuffer_scale + frame.tile_origin;
+    let centre = pixel - 0.5 * frame.picture_size;
+    let scale = frame.pixel_footprint;
+    let step_px = vec2f(step) * vec2f(1.0, -1.0) / frame.gbuffer_scale;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        let facing = max(n.z, MIN_FACING);
+        let rise = -dot(n.xy, step_px) * scale / facing;
+        return rise / (frame.depth_range.y - frame.depth_range.x);
+    }
+    let v = vec3f(centre.x * scale, -centre.y * scale, -1.0);
+    let facing = max(-dot(n, v), MIN_FACING * length(v));
+    return depth * -dot(n.xy, step_px) * scale / facing;
 }
 
 fn strength(margin: f32) -> u32 {
@@ -170,5 +267,11 @@ fn detect_lines(@builtin(global_invocation_id) id: vec3u) {
     let below = clamped(at + vec2i(0, 1), size);
     let across = clamped(at + vec2i(1, 1), size);
     let bits = merged(difference(at, across, size), difference(right, below, size));
-    textureStore(mask, at, vec4u(bits, 0u, 0u, 0u));
+    textureStore(mask, at, vec4u(bits & ~MEETING, 0u, 0u, 0u));
+    if ((bits & MEETING) != 0u && frame.line_method == METHOD_CONTOUR) {
+        let slot = atomicAdd(&counters[COUNT_SEAMS], 1u);
+        if (slot < arrayLength(&seam_texels)) {
+            seam_texels[slot] = u32(at.x) | (u32(at.y) << 16u);
+        }
+    }
 }

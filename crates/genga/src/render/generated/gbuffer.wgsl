@@ -31,6 +31,8 @@ const DRAW_ALPHA_BLEND: u32 = 4u;
 
 const DRAW_ALPHA_MASK: u32 = 2u;
 
+const LOOK_BASE_FIXED: u32 = 4u;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
@@ -39,9 +41,13 @@ const RULE_VERTEX_COLOR: u32 = 2u;
 
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Draw {
@@ -58,12 +64,15 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_sets: u32
+    line_width: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -77,9 +86,13 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -88,15 +101,26 @@ struct GBuffer {
     @location(0)
     normal: vec4f,
     @location(1)
-    ids: vec2u
+    ids: vec2u,
+    @location(2)
+    base: vec4f
 }
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
 struct Look {
@@ -153,7 +177,9 @@ struct Surface {
     @location(6)
     line_width: f32,
     @location(7) @interpolate(flat)
-    draw: u32
+    draw: u32,
+    @location(8) @interpolate(flat)
+    line_id: u32
 }
 
 struct Tone {
@@ -172,13 +198,15 @@ struct VertexInput {
     @location(2)
     smooth_normal: u32,
     @location(3)
-    line_width: f32,
+    line: vec2f,
     @location(4)
     uv0: vec2f,
     @location(5)
     uv1: vec2f,
     @location(6)
     color: vec4f,
+    @location(7)
+    line_id: u32,
     @builtin(instance_index)
     draw: u32
 }
@@ -296,7 +324,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
@@ -326,9 +354,14 @@ fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> G
         discard;
     }
     let normal = facing_normal(in, front_facing);
-    let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (looks[material.look].line_id << 16u));
+    let line_id = select(in.line_id, looks[material.look].line_id, in.line_id == 0u);
+    let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (line_id << 16u));
     let width = select(0.0, looks[material.look].line_width, in.line_width > 0.0);
-    return GBuffer(vec4f(normal, width), ids);
+    var base = material.base;
+    if ((looks[material.look].flags & LOOK_BASE_FIXED) != 0u) {
+        base = looks[material.look].fixed_color.rgb;
+    }
+    return GBuffer(vec4f(normal, width), ids, vec4f(base, 1.0));
 }
 
 @vertex

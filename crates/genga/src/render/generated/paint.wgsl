@@ -67,9 +67,13 @@ const RULE_VERTEX_COLOR: u32 = 2u;
 
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Draw {
@@ -86,12 +90,15 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_sets: u32
+    line_width: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -105,9 +112,13 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -131,10 +142,19 @@ struct Light {
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
 struct Look {
@@ -196,7 +216,9 @@ struct Surface {
     @location(6)
     line_width: f32,
     @location(7) @interpolate(flat)
-    draw: u32
+    draw: u32,
+    @location(8) @interpolate(flat)
+    line_id: u32
 }
 
 struct Tone {
@@ -215,13 +237,15 @@ struct VertexInput {
     @location(2)
     smooth_normal: u32,
     @location(3)
-    line_width: f32,
+    line: vec2f,
     @location(4)
     uv0: vec2f,
     @location(5)
     uv1: vec2f,
     @location(6)
     color: vec4f,
+    @location(7)
+    line_id: u32,
     @builtin(instance_index)
     draw: u32
 }
@@ -272,14 +296,13 @@ fn is_cut_out(in: Surface, alpha: f32) -> bool {
     return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
-fn light_share(index: u32, p_in_world: vec3f, normal: vec3f) -> f32 {
-    let kind = lights[index].kind;
-    let factors = lights[index].factors;
-    let direction = lights[index].direction.xyz;
-    if (kind == LIGHT_DIRECTIONAL) {
+fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+    let factors = light.factors;
+    let direction = light.direction.xyz;
+    if (light.kind == LIGHT_DIRECTIONAL) {
         return factors.x * dot(normal, direction);
     }
-    let offset = lights[index].position.xyz - p_in_world;
+    let offset = light.position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
     let to_light = offset * inverseSqrt(distance_squared);
     var falloff = 1.0;
@@ -287,7 +310,7 @@ fn light_share(index: u32, p_in_world: vec3f, normal: vec3f) -> f32 {
         let ratio = distance_squared / (factors.y * factors.y);
         falloff = saturate(1.0 - ratio * ratio);
     }
-    if (kind == LIGHT_SPOT) {
+    if (light.kind == LIGHT_SPOT) {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
@@ -404,7 +427,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line_width, in.draw);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
 }
 
 fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
@@ -460,7 +483,7 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
     for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(i, in.p_in_world, normal);
+        sum += light_share(lights[i], in.p_in_world, normal);
     }
     let sum_width = fwidth(sum);
     var rim = 0.0;
@@ -518,7 +541,7 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
 @vertex
 fn hull_vertex(in: VertexInput) -> Hull {
     let look = draws[in.draw].look_first;
-    let factor = looks[look].line_width * in.line_width;
+    let factor = looks[look].line_width * in.line.x;
     let normal = octahedral_unpack(in.smooth_normal);
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
     let radius_px = frame.line_sets[max(frame.line_set_count, 1u) - 1u].radius * 2.0;

@@ -12,10 +12,10 @@ var mask: texture_2d<u32>;
 @group(1) @binding(0)
 var<storage, read> world: array<WorldVertex>;
 
-@group(1) @binding(1)
+@group(1) @binding(2)
 var<storage, read> indices: array<u32>;
 
-@group(1) @binding(2)
+@group(1) @binding(4)
 var<uniform> range: StrokeRange;
 
 const DRAW_DOUBLE_SIDED: u32 = 16u;
@@ -23,6 +23,8 @@ const DRAW_DOUBLE_SIDED: u32 = 16u;
 const DRAW_MIRRORED: u32 = 8u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
+const ID_SETS_SHIFT: u32 = 24u;
 
 const LINE_CREASE: u32 = 2u;
 
@@ -34,9 +36,13 @@ const MASK_SILHOUETTE_SHIFT: u32 = 8u;
 
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
 struct Draw {
@@ -53,12 +59,15 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_sets: u32
+    line_width: f32
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -72,19 +81,32 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
 
 struct LineSet {
     color: vec4f,
+    lit_color: vec4f,
     types: u32,
+    flags: u32,
     radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
 }
 
 struct MaskSample {
@@ -105,9 +127,13 @@ struct Quad {
 
 struct StrokeRange {
     world_first: u32,
+    rest_first: u32,
+    index_first: u32,
     first: u32,
     count: u32,
-    draw: u32
+    draw: u32,
+    order_first: u32,
+    reserved: u32
 }
 
 struct WorldVertex {
@@ -116,7 +142,7 @@ struct WorldVertex {
     z: f32,
     normal: u32,
     smooth_normal: u32,
-    line_width: f32
+    line: u32
 }
 
 fn facing_vector(frame: Frame, p_in_world: vec3f) -> vec3f {
@@ -163,7 +189,7 @@ fn position(vertex: WorldVertex) -> vec3f {
 }
 
 fn world_vertex(corner: u32) -> WorldVertex {
-    return world[range.world_first + indices[range.first + corner]];
+    return world[range.world_first + indices[range.index_first + corner]];
 }
 
 @fragment
@@ -172,7 +198,7 @@ fn reference_fragment(in: Quad) -> @location(0) vec4f {
     if (types == 0u) {
         discard;
     }
-    let line_sets = draws[range.draw].line_sets;
+    let line_sets = draws[range.draw].object_id >> ID_SETS_SHIFT;
     var coverage = vec4f(0.0);
     for (var i = 0u; i < frame.line_set_count; i++) {
         if ((frame.line_sets[i].types & types) != 0u && ((line_sets >> i) & 1u) != 0u) {
@@ -219,7 +245,7 @@ fn reference_vertex(@builtin(vertex_index) index: u32) -> Quad {
     for (var i = 0u; i < frame.line_set_count; i++) {
         radius = max(radius, frame.line_sets[i].radius);
     }
-    let width = select(v0.line_width, v1.line_width, at_b);
+    let width = select(unpack2x16float(v0.line).x, unpack2x16float(v1.line).x, at_b);
     let reference_px = select(a, b, at_b);
     let across = select(-1.0, 1.0, up) * (radius * width * frame.detect.max_width_factor + 0.5);
     let p_px = reference_px + normal_px * across;

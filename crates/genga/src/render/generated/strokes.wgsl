@@ -4,48 +4,105 @@
 var<uniform> frame: Frame;
 
 @group(0) @binding(1)
-var<storage, read> draws: array<Draw>;
+var depths: texture_2d<f32>;
 
-@group(0) @binding(5)
+@group(0) @binding(2)
 var ids: texture_2d<u32>;
 
-@group(0) @binding(6)
-var depths: texture_depth_2d;
+@group(0) @binding(3)
+var curves: texture_2d<f32>;
 
 @group(1) @binding(0)
-var<storage, read> segments: array<Segment>;
+var<storage, read> pieces: array<Piece>;
+
+@group(1) @binding(1)
+var<storage, read> states: array<vec4u>;
+
+@group(1) @binding(2)
+var<storage, read> links: array<u32>;
+
+@group(1) @binding(3)
+var<storage, read> ranks: array<vec2u>;
+
+const CURVE_COUNT: u32 = 5u;
+
+const CURVE_CURVATURE: u32 = 1u;
+
+const CURVE_DEPTH: u32 = 0u;
+
+const CURVE_LIGHT: u32 = 3u;
+
+const CURVE_SCREEN_CURVATURE: u32 = 2u;
+
+const CURVE_TAPER: u32 = 4u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
-const HIDDEN_BEHIND_OTHER: f32 = 8.0;
+const ID_THROUGH_SHIFT: u32 = 28u;
+
+const LINK_END: u32 = 1073741823u;
+
+const LINK_JUNCTION: u32 = 2147483648u;
+
+const MAX_RADIUS: f32 = 256.0;
+
+const ON_SURFACE: f32 = 2.0;
+
+const PIECE_CLOSED: u32 = 1024u;
+
+const PIECE_COVERED_A: u32 = 256u;
+
+const PIECE_COVERED_B: u32 = 512u;
+
+const SETS: u32 = 15u;
+
+const SET_COLOR_BASE: u32 = 2u;
+
+const SET_COLOR_LIGHT: u32 = 4u;
+
+const SET_CURVES: u32 = 256u;
+
+const SET_HIDDEN: u32 = 1u;
+
+const STEP: f32 = 4.0;
+
+struct CapsulePlace {
+    distance: f32,
+    radius: f32,
+    t: f32
+}
+
+struct Colored {
+    @location(0)
+    color: vec4f,
+    @builtin(frag_depth)
+    depth: f32
+}
 
 struct Detect {
     depth: f32,
+    laplacian: f32,
     crease_cos: f32,
-    identities: u32,
-    max_width_factor: f32
+    sources: u32,
+    max_width_factor: f32,
+    reserved_0: f32,
+    reserved_1: f32,
+    reserved_2: f32
 }
 
-struct Draw {
-    base_color: vec4f,
-    emissive: vec4f,
-    base_uv_u: vec4f,
-    base_uv_v: vec4f,
-    emissive_uv_u: vec4f,
-    emissive_uv_v: vec4f,
-    object_id: u32,
-    material_id: u32,
-    look_first: u32,
-    rule_first: u32,
-    rule_count: u32,
-    flags: u32,
-    alpha_cutoff: f32,
-    line_sets: u32
+struct Ending {
+    distance: f32,
+    is_free: bool,
+    is_joined: bool,
+    is_closed: bool
 }
 
 struct Frame {
     clip_from_world: mat4x4f,
     eye: vec4f,
+    camera_right: vec4f,
+    camera_up: vec4f,
+    camera_back: vec4f,
     background_top: vec4f,
     background_bottom: vec4f,
     picture_size: vec2f,
@@ -59,48 +116,87 @@ struct Frame {
     paint_scale: f32,
     gbuffer_scale: f32,
     light_count: u32,
+    min_stroke: f32,
+    max_gap: f32,
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    reserved_0: u32,
+    reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
 
-struct LineSet {
-    color: vec4f,
-    types: u32,
-    radius: f32,
-    reserved_0: u32,
-    reserved_1: u32
+struct Ink {
+    coverage: vec4f,
+    depth: f32,
+    t: f32
 }
 
-struct Segment {
+struct LineSet {
+    color: vec4f,
+    lit_color: vec4f,
+    types: u32,
+    flags: u32,
+    radius: f32,
+    radius_m: f32,
+    darken: f32,
+    dash: f32,
+    dash_gap: f32,
+    wobble: f32,
+    wobble_length: f32,
+    wobble_seed: u32,
+    depth_from: f32,
+    reserved: u32
+}
+
+struct Piece {
     a: vec2f,
     b: vec2f,
     depth_a: f32,
     depth_b: f32,
-    width_a: f32,
-    width_b: f32,
-    draw: u32,
-    line_sets: u32,
-    reserved_0: u32,
-    reserved_1: u32
+    widths: u32,
+    curvatures: u32,
+    rest_ax: f32,
+    rest_ay: f32,
+    rest_az: f32,
+    rest_bx: f32,
+    rest_by: f32,
+    rest_bz: f32,
+    base_a: u32,
+    base_b: u32,
+    key_a0: u32,
+    key_a1: u32,
+    key_b0: u32,
+    key_b1: u32,
+    sets: u32,
+    owner: u32,
+    order: u32,
+    link_a: u32,
+    link_b: u32,
+    reserved: u32
 }
 
 struct Stroke {
     @builtin(position)
     clip: vec4f,
     @location(0) @interpolate(flat)
-    a: vec2f,
-    @location(1) @interpolate(flat)
-    b: vec2f,
-    @location(2) @interpolate(flat)
     ends: vec4f,
+    @location(1) @interpolate(flat)
+    shape: vec4f,
+    @location(2) @interpolate(flat)
+    depths: vec2f,
     @location(3) @interpolate(flat)
-    owner: vec2u
+    what: vec4u
 }
 
-fn behind_in_pixels(line_depth: f32, depth: f32) -> f32 {
+fn behind(p_px: vec2f, line_depth: f32) -> f32 {
+    let size = vec2i(textureDimensions(depths));
+    let at = clamp(vec2i(floor(p_px - frame.tile_origin)), vec2i(0), size - 1);
+    return behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x);
+}
+
+fn behind_in_pixels(frame: Frame, line_depth: f32, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
         return (line_depth - surface) / frame.pixel_footprint;
@@ -125,46 +221,290 @@ fn capsule_corner(corner: u32, a: vec2f, b: vec2f, radius: f32) -> vec2f {
     return end + select(-side, side, up) * radius;
 }
 
+fn capsule_place(p: vec2f, a: vec2f, b: vec2f, radius_a: f32, radius_b: f32) -> CapsulePlace {
+    let along = b - a;
+    let length_px = length(along);
+    let slope = (radius_a - radius_b) / max(length_px, 1e-6);
+    if (abs(slope) >= 1.0 || length_px < 1e-6) {
+        let is_a = radius_a >= radius_b;
+        let center = select(b, a, is_a);
+        return CapsulePlace(length(p - center), max(radius_a, radius_b), select(1.0, 0.0, is_a));
+    }
+    let unit = along / length_px;
+    let offset = p - a;
+    let x = dot(offset, unit);
+    let y = abs(unit.x * offset.y - unit.y * offset.x);
+    let cosine = sqrt(1.0 - slope * slope);
+    let foot = x - y * slope / cosine;
+    if (foot <= 0.0) {
+        return CapsulePlace(length(offset), radius_a, 0.0);
+    }
+    if (foot >= length_px) {
+        return CapsulePlace(length(p - b), radius_b, 1.0);
+    }
+    let t = foot / length_px;
+    let distance = y / cosine;
+    return CapsulePlace(distance, mix(radius_a, radius_b, t), t);
+}
+
+fn curve_at(line_set: u32, curve: u32, x: f32) -> f32 {
+    if (((frame.line_sets[line_set].flags >> curve) & SET_CURVES) == 0u) {
+        return 1.0;
+    }
+    let row = line_set * CURVE_COUNT + curve;
+    let count = u32(textureLoad(curves, vec2u(0u, row), 0).x);
+    var before = textureLoad(curves, vec2u(1u, row), 0).xy;
+    if (x <= before.x) {
+        return before.y;
+    }
+    for (var i = 2u; i <= count; i++) {
+        let next = textureLoad(curves, vec2u(i, row), 0).xy;
+        if (x < next.x) {
+            return mix(before.y, next.y, (x - before.x) / (next.x - before.x));
+        }
+        before = next;
+    }
+    return before.y;
+}
+
+fn ending(end: u32) -> Ending {
+    let rank = ranks[end];
+    let last = rank.x;
+    if (ranks[last].y != 0u) {
+        return Ending(0.0, false, false, true);
+    }
+    let link = links[last];
+    let is_joined = (link & LINK_JUNCTION) != 0u;
+    var is_cut = false;
+    if ((link & LINK_END) != 0u) {
+        let other = (link & LINK_END) - 1u;
+        let cut_bit = select(PIECE_COVERED_B, PIECE_COVERED_A, (other & 1u) == 0u);
+        is_cut = (pieces[other >> 1u].sets & cut_bit) != 0u;
+    }
+    return Ending(bitcast<f32>(rank.y), !is_joined && !is_cut, is_joined, false);
+}
+
+fn hashed(cell: vec3i, seed: u32) -> vec2f {
+    let scaled = bitcast<vec3u>(cell) * vec3u(2654435761u, 2246822519u, 3266489917u);
+    var h = scaled.x ^ scaled.y ^ scaled.z ^ (seed * 668265263u + 374761393u);
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return vec2f(f32(h & 65535u), f32(h >> 16u)) / 32767.5 - 1.0;
+}
+
+fn ink_at(in: Stroke) -> Ink {
+    let nothing = Ink(vec4f(0.0), 0.0, 0.0);
+    let p_px = in.clip.xy + frame.tile_origin;
+    let a = in.ends.xy;
+    let b = in.ends.zw;
+    let place = capsule_place(p_px, a, b, in.shape.x, in.shape.y);
+    let coverage = line_coverage(place.distance, place.radius);
+    if (coverage <= 0.0) {
+        return nothing;
+    }
+    let line_set = in.what.x;
+    let dash = frame.line_sets[line_set].dash;
+    let period = dash + frame.line_sets[line_set].dash_gap;
+    var dashed = 1.0;
+    if (period > 0.0 && frame.line_sets[line_set].dash_gap > 0.0) {
+        let at = mix(in.shape.z, in.shape.w, place.t);
+        let phase = at - period * floor(at / period);
+        dashed = saturate(0.5 + min(phase, dash - phase));
+        if (phase > dash + 0.5) {
+            dashed = saturate(0.5 + phase - period);
+        }
+    }
+    let line_depth = mix(in.depths.x, in.depths.y, place.t);
+    if ((frame.line_sets[line_set].flags & SET_HIDDEN) == 0u) {
+        var spine = mix(a, b, place.t);
+        let along = b - a;
+        let unit = along * inverseSqrt(max(dot(along, along), 1e-12));
+        if ((in.what.y & PIECE_COVERED_B) != 0u && distance(spine, b) < 1.5) {
+            spine = b - 1.5 * unit;
+        }
+        if ((in.what.y & PIECE_COVERED_A) != 0u && distance(spine, a) < 1.5) {
+            spine = a + 1.5 * unit;
+        }
+        var covered = false;
+        if ((in.what.y & PIECE_CLOSED) != 0u) {
+            covered = behind(p_px, line_depth) > 8.0;
+        }
+        else {
+            covered = is_covered(p_px, spine, line_depth);
+        }
+        if (covered) {
+            let size = vec2i(textureDimensions(ids));
+            let texel = clamp(vec2i(floor(in.clip.xy * frame.gbuffer_scale)), vec2i(0), size - 1);
+            let through = textureLoad(ids, texel, 0).x >> ID_THROUGH_SHIFT;
+            if (((through >> line_set) & 1u) == 0u) {
+                return nothing;
+            }
+        }
+    }
+    let channels = vec4f(vec4u(line_set) == vec4u(0u, 1u, 2u, 3u));
+    return Ink(channels * coverage * dashed, line_depth, place.t);
+}
+
+fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32) -> bool {
+    var here = behind(p_px, line_depth);
+    if (here <= ON_SURFACE) {
+        return false;
+    }
+    let way = spine_px - p_px;
+    let length_px = length(way);
+    if (length_px < 0.75) {
+        return false;
+    }
+    let unit = way / length_px;
+    var fall = max(behind(p_px - unit, line_depth) - here, 0.0);
+    let steps = u32(clamp(ceil(length_px - 0.75), 1.0, 48.0));
+    for (var i = 1u; i <= steps; i++) {
+        let next = behind(p_px + unit * min(f32(i), length_px - 0.25), line_depth);
+        let drop = here - next;
+        if (drop > STEP && drop > 3.0 * fall + STEP) {
+            return true;
+        }
+        fall = max(drop, 0.0);
+        here = next;
+        if (here <= ON_SURFACE) {
+            return false;
+        }
+    }
+    return false;
+}
+
 fn line_coverage(distance: f32, radius: f32) -> f32 {
     return clamp(min(distance + 0.5, radius) - max(distance - 0.5, -radius), 0.0, 1.0);
 }
 
+fn radius_at(line_set: u32, piece: u32, at_b: bool, from_start: f32, to_end: f32, start: Ending, end: Ending) -> f32 {
+    let depth = select(pieces[piece].depth_a, pieces[piece].depth_b, at_b);
+    let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    let distance = select(1.0 / max(depth, 1e-30), depth, is_ortho);
+    var radius = frame.line_sets[line_set].radius;
+    if (frame.line_sets[line_set].radius_m > 0.0) {
+        radius = frame.line_sets[line_set].radius_m / (frame.pixel_footprint * select(distance, 1.0, is_ortho));
+    }
+    let side = select(0u, 1u, at_b);
+    radius *= unpack2x16float(states[piece].y)[side];
+    radius *= curve_at(line_set, CURVE_DEPTH, distance - frame.line_sets[line_set].depth_from);
+    radius *= curve_at(line_set, CURVE_CURVATURE, unpack2x16float(pieces[piece].curvatures)[side]);
+    let bend = bitcast<f32>(select(states[piece].z, states[piece].w, at_b));
+    radius *= curve_at(line_set, CURVE_SCREEN_CURVATURE, 100.0 * bend * frame.line_scale);
+    let base = select(pieces[piece].base_a, pieces[piece].base_b, at_b);
+    radius *= curve_at(line_set, CURVE_LIGHT, unpack4x8unorm(base).a);
+    var nearest = 1e30;
+    if (start.is_free) {
+        nearest = from_start;
+    }
+    if (end.is_free) {
+        nearest = min(nearest, to_end);
+    }
+    if (nearest < 1e29) {
+        radius *= curve_at(line_set, CURVE_TAPER, nearest / frame.line_scale);
+    }
+    return min(radius, MAX_RADIUS);
+}
+
+fn surface_noise(rest: vec3f, wavelength: f32, seed: u32) -> vec2f {
+    let octave = log2(clamp(wavelength, 1e-9, 1000000000.0));
+    let low = floor(octave);
+    let share = octave - low;
+    let cell = exp2(low);
+    let p = clamp(rest / cell, vec3f(-1000000.0), vec3f(1000000.0));
+    let fine = value_noise(p, seed ^ bitcast<u32>(i32(low)));
+    let coarse = value_noise(0.5 * p, seed ^ bitcast<u32>(i32(low) + 1));
+    let weights = vec2f(1.0 - share, share);
+    return clamp((weights.x * fine + weights.y * coarse) * inverseSqrt(dot(weights, weights)), vec2f(-1.0), vec2f(1.0)) * 0.7071;
+}
+
+fn value_noise(p: vec3f, seed: u32) -> vec2f {
+    let cell = floor(p);
+    let part = p - cell;
+    let w = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    var sum = vec2f(0.0);
+    for (var i = 0; i < 8; i++) {
+        let corner = vec3i(i & 1, (i >> 1) & 1, i >> 2);
+        let weights = select(1.0 - w, w, corner == vec3i(1));
+        sum += weights.x * weights.y * weights.z * hashed(vec3i(cell) + corner, seed);
+    }
+    return sum;
+}
+
+fn wobble_at(line_set: u32, piece: u32, at_b: bool, depth: f32) -> vec2f {
+    let amplitude = frame.line_sets[line_set].wobble;
+    if (amplitude <= 0.0) {
+        return vec2f(0.0);
+    }
+    var rest = vec3f(pieces[piece].rest_ax, pieces[piece].rest_ay, pieces[piece].rest_az);
+    if (at_b) {
+        rest = vec3f(pieces[piece].rest_bx, pieces[piece].rest_by, pieces[piece].rest_bz);
+    }
+    var metres = frame.pixel_footprint;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
+        metres /= max(depth, 1e-30);
+    }
+    let wavelength = frame.line_sets[line_set].wobble_length * metres;
+    return amplitude * surface_noise(rest, wavelength, frame.line_sets[line_set].wobble_seed);
+}
+
+@fragment
+fn stroke_color_fragment(in: Stroke) -> Colored {
+    let ink = ink_at(in);
+    let wanted = SET_COLOR_BASE | SET_COLOR_LIGHT;
+    if (all(ink.coverage == vec4f(0.0)) || (frame.line_sets[in.what.x].flags & wanted) == 0u) {
+        discard;
+    }
+    let color = mix(unpack4x8unorm(in.what.z), unpack4x8unorm(in.what.w), ink.t);
+    let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    let nearness = select(frame.depth_range.x * ink.depth, (frame.depth_range.y - ink.depth) / max(frame.depth_range.y - frame.depth_range.x, 1e-30), is_ortho);
+    return Colored(color, saturate(nearness));
+}
+
 @fragment
 fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
-    let p_px = in.clip.xy + frame.tile_origin;
-    let along = in.b - in.a;
-    let t = saturate(dot(p_px - in.a, along) / max(dot(along, along), 1e-12));
-    let distance = length(p_px - in.a - t * along);
-    let line_depth = mix(in.ends.x, in.ends.y, t);
-    let factor = mix(in.ends.z, in.ends.w, t);
-    let size = vec2i(textureDimensions(depths));
-    let texel = clamp(vec2i(in.clip.xy * frame.gbuffer_scale), vec2i(0), size - 1);
-    let here = textureLoad(ids, texel, 0).x;
-    if (here != 0u && here != in.owner.x) {
-        if (behind_in_pixels(line_depth, textureLoad(depths, texel, 0)) > HIDDEN_BEHIND_OTHER) {
-            discard;
-        }
+    let ink = ink_at(in);
+    if (all(ink.coverage == vec4f(0.0))) {
+        discard;
     }
-    var coverage = vec4f(0.0);
-    for (var i = 0u; i < frame.line_set_count; i++) {
-        if (((in.owner.y >> i) & 1u) != 0u) {
-            coverage[i] = line_coverage(distance, frame.line_sets[i].radius * factor);
-        }
-    }
-    return coverage;
+    return ink.coverage;
 }
 
 @vertex
 fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
-    let segment = segments[vertex / 6u];
-    var radius = 0.0;
-    for (var i = 0u; i < frame.line_set_count; i++) {
-        if (((segment.line_sets >> i) & 1u) != 0u) {
-            radius = max(radius, frame.line_sets[i].radius);
-        }
+    let nothing = Stroke(vec4f(2.0, 2.0, 0.5, 1.0), vec4f(0.0), vec4f(0.0), vec2f(0.0), vec4u(0u));
+    let corner = vertex % 6u;
+    let line_set = (vertex / 6u) % frame.line_set_count;
+    let piece = vertex / (6u * frame.line_set_count);
+    let state = states[piece].x;
+    if (((state >> line_set) & 1u) == 0u) {
+        return nothing;
     }
-    radius *= max(segment.width_a, segment.width_b);
-    let p_px = capsule_corner(vertex % 6u, segment.a, segment.b, radius + 1.0);
+    var a = pieces[piece].a;
+    var b = pieces[piece].b;
+    let own = distance(a, b);
+    let start = ending(2u * piece);
+    let end = ending(2u * piece + 1u);
+    let whole = start.distance + own + end.distance;
+    let is_short = !start.is_closed && !start.is_joined && !end.is_joined;
+    let shown = select(1.0, saturate(whole / max(frame.min_stroke, 1e-6) - 1.0), is_short && frame.min_stroke > 0.0);
+    if (shown <= 0.0) {
+        return nothing;
+    }
+    let radius_a = shown * radius_at(line_set, piece, false, start.distance, end.distance + own, start, end);
+    let radius_b = shown * radius_at(line_set, piece, true, start.distance + own, end.distance, start, end);
+    a += wobble_at(line_set, piece, false, pieces[piece].depth_a);
+    b += wobble_at(line_set, piece, true, pieces[piece].depth_b);
+    let p_px = capsule_corner(corner, a, b, max(radius_a, radius_b) + 1.0);
     let ndc = ((p_px - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
-    return Stroke(vec4f(ndc, 0.5, 1.0), segment.a, segment.b, vec4f(segment.depth_a, segment.depth_b, segment.width_a, segment.width_b), vec2u(draws[segment.draw].object_id, segment.line_sets));
+    var flags = state & ~SETS;
+    flags &= PIECE_CLOSED;
+    if (!start.is_closed && start.distance == 0.0 && !start.is_free && !start.is_joined) {
+        flags |= PIECE_COVERED_A;
+    }
+    if (!end.is_closed && end.distance == 0.0 && !end.is_free && !end.is_joined) {
+        flags |= PIECE_COVERED_B;
+    }
+    return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b));
 }

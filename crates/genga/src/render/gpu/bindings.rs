@@ -19,6 +19,8 @@ pub(crate) enum Binding {
     Uint,
     /// A depth texture.
     Depth,
+    /// A multisampled depth texture.
+    DepthSamples,
     /// A storage texture that is written.
     Written(wgpu::TextureFormat),
     /// A filtering sampler.
@@ -48,6 +50,11 @@ impl Binding {
             Self::Filtered => texture(wgpu::TextureSampleType::Float { filterable: true }),
             Self::Uint => texture(wgpu::TextureSampleType::Uint),
             Self::Depth => texture(wgpu::TextureSampleType::Depth),
+            Self::DepthSamples => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Depth,
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: true,
+            },
             Self::Written(format) => wgpu::BindingType::StorageTexture {
                 access: wgpu::StorageTextureAccess::WriteOnly,
                 format,

@@ -21,7 +21,7 @@ pub(crate) struct CompositePass {
 
 impl CompositePass {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let bindings = [(0, B::Uniform), (1, B::Float), (2, B::Float), (3, B::Uint)];
+        let bindings = [(0, B::Uniform), (1, B::Float), (2, B::Float), (3, B::Uint), (4, B::Float)];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
         let module = shader(device, "composite", include_str!("../generated/composite.wgsl"));
@@ -38,6 +38,7 @@ impl CompositePass {
         timer: &mut Timer,
     ) {
         use wgpu::BindingResource as R;
+        let colors = targets.line_colors.as_ref().map_or(&targets.no_colors, |[colors, _]| colors);
         let group = group(
             device,
             "composite",
@@ -47,6 +48,7 @@ impl CompositePass {
                 (1, R::TextureView(&targets.paint.view)),
                 (2, R::TextureView(&targets.coverage.view)),
                 (3, R::TextureView(&targets.mask.view)),
+                (4, R::TextureView(&colors.view)),
             ],
         );
         let pipeline = self.pipeline(device, format);

@@ -5,7 +5,10 @@ use crate::render::gpu::{
     bindings::{Binding as B, compute_pipeline, group, layout, pipeline_layout},
     timing::Timer,
 };
-use crate::render::targets::{MASK_FORMAT, Targets};
+use crate::render::{
+    prepare::Prepared,
+    targets::{MASK_FORMAT, Targets},
+};
 
 pub(crate) struct DetectPass {
     layout: wgpu::BindGroupLayout,
@@ -21,6 +24,8 @@ impl DetectPass {
             (2, B::Uint),
             (3, B::Depth),
             (4, B::Written(MASK_FORMAT)),
+            (5, B::StorageWrite),
+            (6, B::StorageWrite),
         ];
         let layout = layout(device, "detect", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "detect", &[&layout]);
@@ -32,7 +37,7 @@ impl DetectPass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &wgpu::Buffer,
+        prepared: &Prepared,
         targets: &Targets,
         timer: &mut Timer,
     ) {
@@ -42,21 +47,23 @@ impl DetectPass {
             "detect",
             &self.layout,
             &[
-                (0, frame.as_entire_binding()),
+                (0, prepared.frame.as_entire_binding()),
                 (1, R::TextureView(&targets.normal.view)),
                 (2, R::TextureView(&targets.ids.view)),
                 (3, R::TextureView(&targets.depth.view)),
                 (4, R::TextureView(&targets.mask.view)),
+                (5, targets.seam_texels.as_entire_binding()),
+                (6, prepared.strokes.counters.as_entire_binding()),
             ],
         );
+        encoder.clear_buffer(&prepared.strokes.counters, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("detect"),
             timestamp_writes: timer.compute("detect"),
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
-        let [width, height] =
-            targets.size.pixels.map(|n| (n * targets.size.gbuffer_scale).div_ceil(8));
+        let [width, height] = targets.size.gbuffer().map(|n| n.div_ceil(8));
         pass.dispatch_workgroups(width, height, 1);
     }
 }

@@ -3,10 +3,13 @@
 pub(crate) mod candidates;
 pub(crate) mod composite;
 pub(crate) mod deform;
+pub(crate) mod depth;
 pub(crate) mod detect;
 pub(crate) mod gbuffer;
+pub(crate) mod link;
 pub(crate) mod paint;
 pub(crate) mod plain;
 pub(crate) mod reference;
+pub(crate) mod seams;
 pub(crate) mod strokes;
 pub(crate) mod surface;

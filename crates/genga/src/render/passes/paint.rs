@@ -47,13 +47,13 @@ impl PaintPass {
             )],
             depth_stencil_attachment: cleared_depth(
                 &targets.paint_depth.view,
-                wgpu::StoreOp::Discard,
+                wgpu::StoreOp::Store,
             ),
             timestamp_writes: timer.render("paint"),
             ..Default::default()
         });
         let samples = paint_samples(targets.size.paint_scale);
-        aim.set_viewport(&mut pass, targets.size.paint_scale);
+        aim.set_viewport(&mut pass, targets.size.paint_scale as f32);
         let [opaque, blended] = sorted_items(prepared, aim.eye);
         let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item, samples)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);

@@ -1,6 +1,9 @@
 //! Visible pieces of lines → round-ended strokes.
 
-use super::surface::{cleared, shader};
+use super::{
+    link::LinkPass,
+    surface::{cleared, cleared_depth, shader},
+};
 use crate::render::gpu::{
     bindings::{group, pipeline_layout},
     timing::Timer,
@@ -8,35 +11,114 @@ use crate::render::gpu::{
 use crate::render::{
     layouts::Layouts,
     prepare::Prepared,
-    targets::{COVERAGE_FORMAT, Targets},
+    targets::{COVERAGE_FORMAT, DEPTH_FORMAT, LINE_COLOR_FORMAT, Targets},
 };
 
 pub(crate) struct StrokePass {
     pipeline: wgpu::RenderPipeline,
+    colors: wgpu::RenderPipeline,
 }
 
 impl StrokePass {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
         let module = shader(device, "strokes", include_str!("../generated/strokes.wgsl"));
-        let groups = [&layouts.strokes, &layouts.segments];
+        let groups = [&layouts.strokes, &layouts.linked];
         let entries = ["stroke_vertex", "stroke_fragment"];
-        Self { pipeline: coverage_pipeline(device, "strokes", &groups, &module, entries) }
+        let color_entries = ["stroke_vertex", "stroke_color_fragment"];
+        Self {
+            pipeline: coverage_pipeline(device, "strokes", &groups, &module, entries),
+            colors: color_pipeline(device, &groups, &module, color_entries),
+        }
     }
 
     pub(crate) fn run(
         &self,
+        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
+        layouts: &Layouts,
         prepared: &Prepared,
-        group: &wgpu::BindGroup,
         targets: &Targets,
         timer: &mut Timer,
     ) {
-        let mut pass = begin_coverage(encoder, targets, timer);
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, group, &[]);
-        pass.set_bind_group(1, &prepared.strokes.segment_group, &[]);
-        pass.draw_indirect(&prepared.strokes.arguments, 0);
+        use wgpu::BindingResource as R;
+        let strokes = &prepared.strokes;
+        let seen = group(
+            device,
+            "strokes",
+            &layouts.strokes,
+            &[
+                (0, prepared.frame.as_entire_binding()),
+                (1, R::TextureView(targets.full_depth())),
+                (2, R::TextureView(&targets.ids.view)),
+                (3, R::TextureView(&strokes.curves)),
+            ],
+        );
+        let linked = group(
+            device,
+            "linked pieces",
+            &layouts.linked,
+            &[
+                (0, strokes.pieces.as_entire_binding()),
+                (1, strokes.states.as_entire_binding()),
+                (2, strokes.links.as_entire_binding()),
+                (3, strokes.ranks[LinkPass::RANKED].as_entire_binding()),
+            ],
+        );
+        let draw = |pass: &mut wgpu::RenderPass<'_>, pipeline| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &seen, &[]);
+            pass.set_bind_group(1, &linked, &[]);
+            pass.draw_indirect(&strokes.indirect, 0);
+        };
+        draw(&mut begin_coverage(encoder, targets, timer), &self.pipeline);
+        if let Some([colors, depth]) = &targets.line_colors {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("line colours"),
+                color_attachments: &[cleared(&colors.view, None)],
+                depth_stencil_attachment: cleared_depth(&depth.view, wgpu::StoreOp::Discard),
+                timestamp_writes: timer.render("line colours"),
+                ..Default::default()
+            });
+            draw(&mut pass, &self.colors);
+        }
     }
+}
+
+/// The nearest stroke's colour wins, so the order of strokes does not matter.
+fn color_pipeline(
+    device: &wgpu::Device,
+    groups: &[&wgpu::BindGroupLayout],
+    module: &wgpu::ShaderModule,
+    [vertex, fragment]: [&str; 2],
+) -> wgpu::RenderPipeline {
+    let layout = pipeline_layout(device, "line colours", groups);
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("line colours"),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(LINE_COLOR_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// The pass that writes the coverage of the line sets.
@@ -92,27 +174,4 @@ pub(crate) fn coverage_pipeline(
         multiview_mask: None,
         cache: None,
     })
-}
-
-/// Group 0 of `strokes` and `reference`.
-pub(crate) fn stroke_group(
-    device: &wgpu::Device,
-    layouts: &Layouts,
-    prepared: &Prepared,
-    targets: &Targets,
-) -> wgpu::BindGroup {
-    use wgpu::BindingResource as R;
-    group(
-        device,
-        "strokes",
-        &layouts.strokes,
-        &[
-            (0, prepared.frame.as_entire_binding()),
-            (1, prepared.draw_data.as_entire_binding()),
-            (4, R::TextureView(&targets.mask.view)),
-            (5, R::TextureView(&targets.ids.view)),
-            (6, R::TextureView(&targets.depth.view)),
-            (7, R::TextureView(&targets.normal.view)),
-        ],
-    )
 }

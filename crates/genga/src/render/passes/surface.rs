@@ -91,14 +91,14 @@ impl SurfacePipelines {
                         array_stride: size_of::<WorldVertex>() as u64,
                         step_mode: wgpu::VertexStepMode::Vertex,
                         attributes: &wgpu::vertex_attr_array![
-                            0 => Float32x3, 1 => Uint32, 2 => Uint32, 3 => Float32
+                            0 => Float32x3, 1 => Uint32, 2 => Uint32, 3 => Float16x2
                         ],
                     },
                     wgpu::VertexBufferLayout {
                         array_stride: size_of::<VertexAttributes>() as u64,
                         step_mode: wgpu::VertexStepMode::Vertex,
                         attributes: &wgpu::vertex_attr_array![
-                            4 => Float32x2, 5 => Float32x2, 6 => Unorm16x4
+                            4 => Float32x2, 5 => Float32x2, 6 => Unorm16x4, 7 => Uint32
                         ],
                     },
                 ],

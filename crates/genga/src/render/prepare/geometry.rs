@@ -3,11 +3,11 @@
 use glam::{Vec3, Vec4};
 
 use super::{
-    edges::{self, FaceEdge},
     pages::{PAGE_BYTES, Pages, Place},
+    topology::{LineEdge, Topology},
 };
-use crate::render::generated::{Edge, NO_VERTEX, RestVertex, WorldVertex};
-use crate::scene::Primitive;
+use crate::render::generated::{Edge, RestVertex, WorldVertex};
+use crate::scene::{Mesh, MorphTarget};
 
 /// What a vertex keeps through deformation.
 #[repr(C)]
@@ -17,6 +17,8 @@ pub(crate) struct VertexAttributes {
     pub(crate) uv1: [f32; 2],
     /// Linear unorm16 RGBA: 8 bits would show in dark tones.
     pub(crate) color: [u16; 4],
+    /// User line id of the triangles that begin at this vertex.
+    pub(crate) line_id: u32,
 }
 
 /// A part of a primitive that fits one page; almost always the whole.
@@ -25,7 +27,10 @@ pub(crate) struct Chunk {
     pub(crate) rest: Place,
     pub(crate) vertex_count: u32,
     pub(crate) indices: Place,
+    /// Own triangles; the neighbours' that its edges need follow them.
     pub(crate) index_count: u32,
+    /// Some triangle's corners have different normals.
+    pub(crate) is_smooth: bool,
     /// Runs of edges: place and count.
     pub(crate) edges: Vec<(Place, u32)>,
     pub(crate) morph: Place,
@@ -72,59 +77,61 @@ impl GeometryBuilder {
         }
     }
 
-    /// Adds a primitive; `uv_sets` are the two sets that go to the shaders.
-    pub(crate) fn add(&mut self, mesh: &str, primitive: &Primitive, uv_sets: UvSets) -> Vec<Chunk> {
-        if primitive.indices.is_empty() {
-            return Vec::new();
+    /// Adds a mesh; `uv_sets` are the two sets of each primitive that go to the shaders.
+    pub(crate) fn add(&mut self, mesh: &Mesh, uv_sets: &[UvSets]) -> Vec<Vec<Chunk>> {
+        let topology = Topology::new(mesh);
+        let mut edges = topology.edges.as_slice();
+        let mut chunks = Vec::with_capacity(mesh.primitives.len());
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let end = 3 * topology.first_triangle[p + 1];
+            let (own, others) = edges.split_at(edges.partition_point(|edge| edge.left < end));
+            edges = others;
+            let limits = [self.max_vertices, self.max_indices];
+            let uv_sets = uv_sets.get(p).copied().unwrap_or_default();
+            let mut of_primitive = Vec::new();
+            if !primitive.indices.is_empty() {
+                for part in Part::split(mesh, &topology, p, own, limits) {
+                    of_primitive.push(self.add_part(mesh, p, &topology, uv_sets, &part));
+                }
+            }
+            chunks.push(of_primitive);
         }
-        let welded = edges::weld(primitive);
-        let smooth = edges::smooth_normals(primitive, &welded);
-        let face_edges = edges::unique_edges(&primitive.indices, &welded);
-        let fits = primitive.positions.len() <= self.max_vertices
-            && primitive.indices.len() <= self.max_indices;
-        if fits {
-            let all: Vec<u32> = (0..primitive.positions.len() as u32).collect();
-            let edges: Vec<Edge> = face_edges.iter().map(|e| e.edge).collect();
-            let part = Part { vertices: &all, indices: &primitive.indices, edges: &edges };
-            return vec![self.add_part(mesh, primitive, &smooth, uv_sets, &part)];
-        }
-        split(primitive, &face_edges, self.max_vertices, self.max_indices)
-            .iter()
-            .map(|(vertices, indices, edges)| {
-                let part = Part { vertices, indices, edges };
-                self.add_part(mesh, primitive, &smooth, uv_sets, &part)
-            })
-            .collect()
+        chunks
     }
 
     fn add_part(
         &mut self,
-        mesh: &str,
-        primitive: &Primitive,
-        smooth: &[Vec3],
+        mesh: &Mesh,
+        own_primitive: usize,
+        topology: &Topology,
         uv_sets: UvSets,
-        part: &Part<'_>,
+        part: &Part,
     ) -> Chunk {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let mut rest = Vec::with_capacity(part.vertices.len());
         let mut attributes = Vec::with_capacity(part.vertices.len());
-        for &v in part.vertices {
-            let v = v as usize;
+        for &whole in &part.vertices {
+            let of = topology.first_vertex.partition_point(|&first| first <= whole) - 1;
+            let primitive = &mesh.primitives[of];
+            let v = (whole - topology.first_vertex[of]) as usize;
             let p = primitive.positions[v];
-            low = low.min(p);
-            high = high.max(p);
+            if of == own_primitive {
+                low = low.min(p);
+                high = high.max(p);
+            }
             let joints = primitive.joints.get(v).copied().unwrap_or_default().map(u32::from);
             let weights = primitive.weights.get(v).copied().unwrap_or([1.0, 0.0, 0.0, 0.0]);
             let weights = weights.map(|w| (w.clamp(0.0, 1.0) * 65535.0).round() as u32);
             let line_width = primitive.line_widths.get(v).map_or(1.0, |w| w.clamp(0.0, 100.0));
             self.max_line_width = self.max_line_width.max(line_width);
+            let half = |x: f32| u32::from(half::f16::from_f32(x).to_bits());
             rest.push(RestVertex {
                 x: p.x,
                 y: p.y,
                 z: p.z,
                 normal: octahedral_pack(primitive.normals[v]),
-                smooth_normal: octahedral_pack(smooth[v]),
-                line_width,
+                smooth_normal: octahedral_pack(topology.smooth_normals[whole as usize]),
+                line: half(line_width) | half(topology.curvatures[whole as usize]) << 16,
                 joints_01: joints[0] | joints[1] << 16,
                 joints_23: joints[2] | joints[3] << 16,
                 weights_01: weights[0] | weights[1] << 16,
@@ -139,112 +146,183 @@ impl GeometryBuilder {
                 uv0: uv(uv_sets[0]),
                 uv1: uv(uv_sets[1]),
                 color: color.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16),
+                line_id: primitive.line_ids.get(v).map_or(0, |&id| id.min(0xffff)),
             });
         }
+        let is_smooth = part.indices[..part.own_indices].chunks_exact(3).any(|t| {
+            let normals = [0, 1, 2].map(|i| rest[t[i] as usize].normal);
+            normals[0] != normals[1] || normals[1] != normals[2]
+        });
         let rest_place = self.rest.add(&rest);
         if self.attributes.len() <= rest_place.page {
             self.attributes.resize_with(rest_place.page + 1, Vec::new);
         }
         self.attributes[rest_place.page].extend(attributes);
-        let (morph, target_count) = self.add_morph(mesh, primitive, part.vertices);
+        let (morph, target_count) = self.add_morph(mesh, own_primitive, topology, &part.vertices);
         Chunk {
             rest: rest_place,
             vertex_count: part.vertices.len() as u32,
-            indices: self.indices.add(part.indices),
-            index_count: part.indices.len() as u32,
-            edges: self.edges.add_pieces(part.edges),
+            indices: self.indices.add(&part.indices),
+            index_count: part.own_indices as u32,
+            is_smooth,
+            edges: self.edges.add_pieces(&part.edges),
             morph,
             target_count,
             center: 0.5 * (low + high),
         }
     }
 
-    fn add_morph(&mut self, mesh: &str, primitive: &Primitive, vertices: &[u32]) -> (Place, u32) {
+    fn add_morph(
+        &mut self,
+        mesh: &Mesh,
+        own_primitive: usize,
+        topology: &Topology,
+        vertices: &[u32],
+    ) -> (Place, u32) {
         let nothing = (Place { page: 0, first: 0 }, 0);
-        let targets = &primitive.morph_targets;
-        if targets.is_empty() {
+        let count = mesh.primitives[own_primitive].morph_targets.len();
+        if count == 0 {
             return nothing;
         }
         let fitting = self.morph.capacity() / (6 * vertices.len().max(1));
-        if fitting < targets.len() {
+        if fitting < count {
             self.warnings.push(format!(
-                "mesh '{mesh}' has {} morph targets of {} vertices, of which the GPU holds {fitting}: \
+                "mesh '{}' has {count} morph targets of {} vertices, of which the GPU holds {fitting}: \
                  the others are not applied",
-                targets.len(),
+                mesh.name,
                 vertices.len(),
             ));
         }
-        let mut offsets = Vec::with_capacity(6 * vertices.len() * targets.len());
-        for target in targets.iter().take(fitting) {
-            for &v in vertices {
-                let at = |offsets: &[Vec3]| offsets.get(v as usize).copied().unwrap_or(Vec3::ZERO);
-                offsets.extend(at(&target.positions).to_array());
-                offsets.extend(at(&target.normals).to_array());
+        let mut offsets = Vec::with_capacity(6 * vertices.len() * count);
+        for target in 0..count.min(fitting) {
+            for &whole in vertices {
+                let of = topology.first_vertex.partition_point(|&first| first <= whole) - 1;
+                let v = (whole - topology.first_vertex[of]) as usize;
+                let target = mesh.primitives[of].morph_targets.get(target);
+                let at = |of: fn(&MorphTarget) -> &Vec<Vec3>| {
+                    target.and_then(|t| of(t).get(v)).copied().unwrap_or(Vec3::ZERO).to_array()
+                };
+                offsets.extend(at(|t| &t.positions));
+                offsets.extend(at(|t| &t.normals));
             }
         }
         if offsets.is_empty() {
             return nothing;
         }
-        (self.morph.add(&offsets), targets.len().min(fitting) as u32)
+        (self.morph.add(&offsets), count.min(fitting) as u32)
     }
 }
 
-/// Vertices (numbers in the primitive), and triangles and edges in numbers of the part.
-struct Part<'a> {
-    vertices: &'a [u32],
-    indices: &'a [u32],
-    edges: &'a [Edge],
+/// A part of a primitive: vertices as numbers in the whole mesh, triangles and edges in numbers of
+/// the part.
+struct Part {
+    vertices: Vec<u32>,
+    /// The part's own triangles, then copies of neighbours that its edges need.
+    indices: Vec<u32>,
+    own_indices: usize,
+    edges: Vec<Edge>,
 }
 
-/// Cuts a primitive into parts of at most `max_vertices` and `max_indices`; an edge goes with its
-/// left triangle, and takes a copy of the far corner of the other one along.
-fn split(
-    primitive: &Primitive,
-    face_edges: &[FaceEdge],
-    max_vertices: usize,
-    max_indices: usize,
-) -> Vec<(Vec<u32>, Vec<u32>, Vec<Edge>)> {
-    let mut by_triangle: Vec<&FaceEdge> = face_edges.iter().collect();
-    by_triangle.sort_unstable_by_key(|e| e.triangle);
-    let mut next_edge = by_triangle.into_iter().peekable();
-    let mut parts = Vec::new();
-    let mut local = vec![u32::MAX; primitive.positions.len()];
-    let (mut vertices, mut indices, mut edges) = (Vec::new(), Vec::new(), Vec::new());
-    for (t, triangle) in primitive.indices.chunks_exact(3).enumerate() {
-        // At most three new corners and three far corners.
-        if vertices.len() + 6 > max_vertices || indices.len() + 3 > max_indices {
-            for &v in &vertices {
-                local[v as usize] = u32::MAX;
+/// Corners that an own triangle and its three neighbours can bring.
+const CORNERS_WITH_NEIGHBOURS: usize = 12;
+
+/// A triangle's corners in the whole mesh, turned so that the first one has the triangle's line id,
+/// and by how many corners.
+fn turned(mesh: &Mesh, topology: &Topology, triangle: u32) -> ([u32; 3], u32) {
+    let p = topology.primitive_of(triangle);
+    let primitive = &mesh.primitives[p];
+    let own = 3 * (triangle - topology.first_triangle[p]) as usize;
+    let corners = [0, 1, 2].map(|i| primitive.indices[own + i]);
+    let id = topology.line_ids[triangle as usize];
+    let has_id = |&v: &u32| primitive.line_ids.get(v as usize).is_none_or(|&own| own == id);
+    let turn = corners.iter().position(has_id).unwrap_or(0);
+    let first = topology.first_vertex[p];
+    ([0, 1, 2].map(|i| first + corners[(i + turn) % 3]), turn as u32)
+}
+
+impl Part {
+    /// Cuts a primitive into parts of at most so many vertices and indices, neighbours included; an
+    /// edge goes with its left triangle. Almost always there is one.
+    fn split(
+        mesh: &Mesh,
+        topology: &Topology,
+        primitive: usize,
+        edges: &[LineEdge],
+        [max_vertices, max_indices]: [usize; 2],
+    ) -> Vec<Self> {
+        let triangles = topology.first_triangle[primitive]..topology.first_triangle[primitive + 1];
+        let mut next_edge = edges.iter().peekable();
+        let mut parts = Vec::new();
+        let mut triangle = triangles.start;
+        while triangle < triangles.end {
+            let start = triangle;
+            let mut part =
+                Self { vertices: Vec::new(), indices: Vec::new(), own_indices: 0, edges: Vec::new() };
+            let mut local = std::collections::HashMap::new();
+            // The own vertices of a primitive are usually all there and in order.
+            let own = topology.first_vertex[primitive]..topology.first_vertex[primitive + 1];
+            let mut own_local = vec![u32::MAX; own.len()];
+            let mut turns = Vec::new();
+            let mut own_edges = Vec::new();
+            let mut neighbours = 0;
+            let mut to_local = |vertices: &mut Vec<u32>, v: u32| {
+                let slot = match own.contains(&v) {
+                    true => &mut own_local[(v - own.start) as usize],
+                    false => local.entry(v).or_insert(u32::MAX),
+                };
+                if *slot == u32::MAX {
+                    *slot = vertices.len() as u32;
+                    vertices.push(v);
+                }
+                *slot
+            };
+            while triangle < triangles.end {
+                let corners = part.vertices.len() + 3 * neighbours + CORNERS_WITH_NEIGHBOURS;
+                let indices = part.indices.len() + 3 * neighbours + CORNERS_WITH_NEIGHBOURS;
+                if triangle > start && (corners > max_vertices || indices > max_indices) {
+                    break;
+                }
+                let (corners, turn) = turned(mesh, topology, triangle);
+                turns.push(turn as u8);
+                for v in corners {
+                    let v = to_local(&mut part.vertices, v);
+                    part.indices.push(v);
+                }
+                while let Some(edge) = next_edge.next_if(|e| e.left / 3 == triangle) {
+                    let is_outside = |h: u32| !(start..=triangle).contains(&(h / 3));
+                    neighbours += usize::from(edge.right.is_some_and(is_outside));
+                    own_edges.push(edge);
+                }
+                triangle += 1;
             }
-            parts.push((
-                std::mem::take(&mut vertices),
-                std::mem::take(&mut indices),
-                std::mem::take(&mut edges),
-            ));
-        }
-        let mut to_local = |v: u32| {
-            let slot = &mut local[v as usize];
-            if *slot == u32::MAX {
-                *slot = vertices.len() as u32;
-                vertices.push(v);
+            part.own_indices = part.indices.len();
+            let mut copies = std::collections::HashMap::new();
+            for edge in own_edges {
+                let own_side = |half: u32| {
+                    let (t, corner) = (half / 3 - start, half % 3);
+                    3 * t + (corner + 3 - u32::from(turns[t as usize])) % 3
+                };
+                let right = edge.right.map(|half| {
+                    if (start..triangle).contains(&(half / 3)) {
+                        return own_side(half);
+                    }
+                    let (first, turn) = *copies.entry(half / 3).or_insert_with(|| {
+                        let (corners, turn) = turned(mesh, topology, half / 3);
+                        let first = part.indices.len() as u32;
+                        for v in corners {
+                            let v = to_local(&mut part.vertices, v);
+                            part.indices.push(v);
+                        }
+                        (first, turn)
+                    });
+                    first + (half % 3 + 3 - turn) % 3
+                });
+                part.edges.push(edge.packed(own_side(edge.left), right));
             }
-            *slot
-        };
-        for &v in triangle {
-            indices.push(to_local(v));
+            parts.push(part);
         }
-        while let Some(e) = next_edge.next_if(|e| e.triangle == t as u32) {
-            let right = if e.edge.right == NO_VERTEX { NO_VERTEX } else { to_local(e.edge.right) };
-            edges.push(Edge {
-                v0: to_local(e.edge.v0),
-                v1: to_local(e.edge.v1),
-                left: to_local(e.edge.left),
-                right,
-            });
-        }
+        parts
     }
-    parts.push((vertices, indices, edges));
-    parts
 }
 
 /// As `octahedral_pack` in `shaders/lib/octahedral.wesl`.
@@ -330,6 +408,8 @@ impl Geometry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use super::super::topology::following;
+    use crate::scene::Primitive;
 
     fn octahedral_unpack(bits: u32) -> Vec3 {
         let snorm = |v: u32| (f32::from(v as u16 as i16) / 32767.0).max(-1.0);
@@ -354,54 +434,88 @@ mod tests {
         }
     }
 
-    /// A strip of quads, so that every inner edge has two faces.
-    fn strip(quads: u32) -> Primitive {
-        let positions: Vec<Vec3> = (0..=quads)
-            .flat_map(|i| [Vec3::new(i as f32, 0.0, 0.0), Vec3::new(i as f32, 1.0, 0.0)])
-            .collect();
-        let indices = (0..quads).flat_map(|i| {
-            let a = 2 * i;
-            [a, a + 2, a + 3, a, a + 3, a + 1]
-        });
-        Primitive {
-            normals: vec![Vec3::Z; positions.len()],
-            positions,
-            indices: indices.collect(),
-            ..Primitive::default()
+    /// A folded strip of quads with normals of their own, so that the edges between them are hard.
+    fn strip(quads: u32) -> Mesh {
+        let mut primitive = Primitive::default();
+        for i in 0..quads {
+            let (x, z) = (i as f32, (i % 2) as f32);
+            for (dx, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+                let z = if dx > 0.0 { 1.0 - z } else { z };
+                primitive.positions.push(Vec3::new(x + dx, y, z));
+                primitive.normals.push(Vec3::new(if i % 2 == 0 { -0.6 } else { 0.6 }, 0.0, 0.8));
+            }
+            primitive.indices.extend([0, 1, 2, 0, 2, 3].map(|v| 4 * i + v));
         }
+        Mesh { primitives: vec![primitive], ..Mesh::default() }
+    }
+
+    /// The ends of all edges and the far corners of both faces.
+    fn all_edges(builder: &GeometryBuilder, chunks: &[Chunk]) -> Vec<[Option<[i32; 2]>; 4]> {
+        use crate::render::generated::{EDGE_HALF, EDGE_NONE};
+        let mut all = Vec::new();
+        for chunk in chunks {
+            let corner = |half: u32| {
+                let index = (chunk.indices.first + half) as usize;
+                let v = builder.indices.pages[chunk.indices.page][index];
+                let vertex = builder.rest.pages[chunk.rest.page][(chunk.rest.first + v) as usize];
+                Some([vertex.x as i32, vertex.y as i32])
+            };
+            for (at, count) in &chunk.edges {
+                let page = &builder.edges.pages[at.page];
+                for e in &page[at.first as usize..(at.first + count) as usize] {
+                    let (left, right) = (e.left & EDGE_HALF, e.right & EDGE_HALF);
+                    let far = |half| corner(following(following(half)));
+                    let across = if right == EDGE_NONE { None } else { far(right) };
+                    all.push([corner(left), corner(following(left)), far(left), across]);
+                }
+            }
+        }
+        all.sort_unstable();
+        all
     }
 
     #[test]
     fn a_split_primitive_keeps_every_triangle_and_edge() {
-        let primitive = strip(100);
+        let mesh = strip(100);
         let mut whole = GeometryBuilder::new();
-        let chunks = whole.add("strip", &primitive, [0, 1]);
+        let chunks = whole.add(&mesh, &[[0, 1]]).remove(0);
         assert_eq!(chunks.len(), 1);
+        // 99 folds, 2 sides of every quad, 2 ends.
+        assert_eq!(all_edges(&whole, &chunks).len(), 99 + 200 + 2);
         let mut parts = GeometryBuilder::new();
-        parts.max_vertices = 20;
-        let split_chunks = parts.add("strip", &primitive, [0, 1]);
+        parts.max_vertices = 60;
+        let split_chunks = parts.add(&mesh, &[[0, 1]]).remove(0);
         assert!(split_chunks.len() > 5);
         assert_eq!(split_chunks.iter().map(|c| c.index_count).sum::<u32>(), 600);
-        assert!(split_chunks.iter().all(|c| c.vertex_count <= 20));
-        let place = |builder: &GeometryBuilder, chunk: &Chunk, v: u32| {
-            let vertex = builder.rest.pages[chunk.rest.page][(chunk.rest.first + v) as usize];
-            [vertex.x as i32, vertex.y as i32]
-        };
-        let all_edges = |builder: &GeometryBuilder, chunks: &[Chunk]| {
-            let mut all = Vec::new();
-            for chunk in chunks {
-                for (at, count) in &chunk.edges {
-                    let page = &builder.edges.pages[at.page];
-                    for e in &page[at.first as usize..(at.first + count) as usize] {
-                        let right = (e.right != NO_VERTEX).then(|| place(builder, chunk, e.right));
-                        let [a, b, c] = [e.v0, e.v1, e.left].map(|v| place(builder, chunk, v));
-                        all.push((a, b, c, right));
-                    }
-                }
-            }
-            all.sort_unstable();
-            all
-        };
+        assert!(split_chunks.iter().all(|c| c.vertex_count <= 60));
         assert_eq!(all_edges(&whole, &chunks), all_edges(&parts, &split_chunks));
+    }
+
+    #[test]
+    fn primitives_of_a_mesh_share_the_edge_between_them() {
+        let Mesh { primitives, .. } = strip(2);
+        let halves = [0, 1].map(|i| {
+            let mut half = primitives[0].clone();
+            half.indices = primitives[0].indices[6 * i..6 * i + 6].to_vec();
+            half.material = Some(i);
+            half
+        });
+        let mesh = Mesh { primitives: halves.to_vec(), ..Mesh::default() };
+        let mut builder = GeometryBuilder::new();
+        let chunks = builder.add(&mesh, &[[0, 1]; 2]);
+        assert_eq!(chunks.iter().map(|c| c[0].index_count).collect::<Vec<_>>(), [6, 6]);
+        let edges: Vec<_> = builder.edges.pages.concat();
+        let seams = edges.iter().filter(|e| e.left & crate::render::generated::EDGE_MATERIAL != 0);
+        assert_eq!((edges.len(), seams.count()), (7, 1));
+    }
+
+    #[test]
+    fn a_triangle_begins_at_a_corner_with_its_line_id() {
+        let mut mesh = strip(1);
+        mesh.primitives[0].line_ids = vec![1, 2, 2, 1];
+        let mut builder = GeometryBuilder::new();
+        let chunk = builder.add(&mesh, &[[0, 1]]).remove(0).remove(0);
+        let first = builder.indices.pages[0][chunk.indices.first as usize];
+        assert_eq!(builder.attributes[0][first as usize].line_id, 2);
     }
 }

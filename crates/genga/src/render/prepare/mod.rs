@@ -1,11 +1,12 @@
 //! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
 
-pub(crate) mod edges;
 pub(crate) mod geometry;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
+pub(crate) mod strokes;
 mod textures;
+pub(crate) mod topology;
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -16,16 +17,17 @@ use self::{
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
+    strokes::StrokeData,
     textures::Textures,
 };
 use super::{
     RenderError,
-    generated::{self as gpu, Deform, Draw, Frame, Light, Segment, StrokeRange, WorldVertex},
+    generated::{self as gpu, Deform, Draw, Frame, Light, WorldVertex},
     gpu::{bindings, scope},
     layouts::Layouts,
 };
 use crate::scene::{Aabb, AlphaMode, Material, Pose, Scene, TextureRef};
-use crate::style::Style;
+use crate::style::{self, LineSet, Style};
 
 /// A scene under a style, ready to be drawn in any view.
 pub struct Prepared {
@@ -43,6 +45,8 @@ pub struct Prepared {
     pub(crate) strokes: StrokeData,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
+    /// Nodes that depth curves count from: number, and place in the present pose.
+    anchors: HashMap<String, (usize, Vec3)>,
     draw_values: Vec<Draw>,
     warnings: Vec<String>,
     node_count: usize,
@@ -84,17 +88,6 @@ struct NodeDeform {
     weight_count: u32,
 }
 
-/// What the strokes of a scene need.
-pub(crate) struct StrokeData {
-    pub(crate) segments: wgpu::Buffer,
-    pub(crate) arguments: wgpu::Buffer,
-    /// For each run of edges: group, dynamic offset, count.
-    pub(crate) candidates: Vec<(wgpu::BindGroup, u32, u32)>,
-    pub(crate) segment_group: wgpu::BindGroup,
-    /// For each draw: group, dynamic offset, number of indices.
-    pub(crate) reference: Vec<(wgpu::BindGroup, u32, u32)>,
-}
-
 impl Prepared {
     /// What could not be drawn as the file or style asks, in sentences for the user.
     #[must_use]
@@ -106,6 +99,11 @@ impl Prepared {
     #[must_use]
     pub fn bounds(&self) -> Option<Aabb> {
         self.bounds
+    }
+
+    /// Place of a node that a depth curve counts from.
+    pub(crate) fn place_of(&self, node: &str) -> Option<Vec3> {
+        self.anchors.get(node).map(|&(_, place)| place)
     }
 
     pub(crate) fn new(
@@ -168,6 +166,9 @@ impl Prepared {
         }
         queue.write_buffer(&self.draw_data, 0, bytemuck::cast_slice(&self.draw_values));
         self.lights = lights::placed_lights(scene, pose, &self.style.light);
+        for (node, place) in self.anchors.values_mut() {
+            *place = pose.world_from_node[*node].translation.into();
+        }
         self.bounds = scene.bounds(pose);
     }
 }
@@ -181,7 +182,8 @@ struct Builder<'a> {
     geometry: GeometryBuilder,
     textures: Textures<'a>,
     looks: Looks<'a>,
-    chunks: HashMap<(usize, usize), Vec<Chunk>>,
+    /// By mesh, then by primitive.
+    chunks: HashMap<usize, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
     material_of: HashMap<(Option<usize>, Option<usize>), usize>,
     draws: Vec<DrawItem>,
@@ -249,21 +251,26 @@ impl<'a> Builder<'a> {
         };
         self.matrix_count += joint_count + 1;
         self.weight_count += weight_count;
+        let chunks_of = match self.chunks.get(&mesh_index) {
+            Some(chunks) => chunks.clone(),
+            None => {
+                let uv_set = |t: Option<TextureRef>| t.map_or(0, |t| t.uv_set);
+                let uv_sets = mesh.primitives.iter().map(|primitive| {
+                    primitive.material.map(|m| &scene.materials[m]).map_or([0, 0], |material| {
+                        [material.base_color_texture, material.emissive_texture].map(uv_set)
+                    })
+                });
+                let chunks = self.geometry.add(mesh, &uv_sets.collect::<Vec<_>>());
+                self.chunks.insert(mesh_index, chunks.clone());
+                chunks
+            }
+        };
         for (p, primitive) in mesh.primitives.iter().enumerate() {
             let default = Material::default();
             let material = primitive.material.map_or(&default, |m| &scene.materials[m]);
             let is_skinned = joint_count > 0 && !primitive.joints.is_empty();
             let matrix_first = deform.matrix_first + if is_skinned { 0 } else { joint_count };
-            let uv_set = |t: Option<TextureRef>| t.map_or(0, |t| t.uv_set);
-            let uv_sets = [uv_set(material.base_color_texture), uv_set(material.emissive_texture)];
-            let chunks = match self.chunks.get(&(mesh_index, p)) {
-                Some(chunks) => chunks.clone(),
-                None => {
-                    let chunks = self.geometry.add(&mesh.name, primitive, uv_sets);
-                    self.chunks.insert((mesh_index, p), chunks.clone());
-                    chunks
-                }
-            };
+            let chunks = chunks_of[p].clone();
             let look = self.looks.range(&node.name, &material.name);
             let group = self.material_group(primitive.material, material, &look);
             for chunk in chunks {
@@ -315,10 +322,12 @@ impl<'a> Builder<'a> {
         set(matches!(material.alpha, AlphaMode::Mask { .. }), gpu::DRAW_ALPHA_MASK);
         let [base_uv_u, base_uv_v] = uv_rows(material.base_color_texture);
         let [emissive_uv_u, emissive_uv_v] = uv_rows(material.emissive_texture);
-        let sets = self.style.lines.sets.iter().take(4).enumerate();
-        let line_sets = sets
-            .filter(|(_, set)| set.matches(object, &material.name))
-            .fold(0, |bits, (i, _)| bits | 1 << i);
+        let sets = || self.style.lines.sets.iter().take(4).enumerate();
+        let bits = |on: &dyn Fn(&LineSet) -> bool| {
+            sets().filter(|(_, set)| on(set)).fold(0_u32, |bits, (i, _)| bits | 1 << i)
+        };
+        let line_sets = bits(&|set| set.matches(object, &material.name));
+        let through = bits(&|set| !set.through.patterns().is_empty() && set.through.matches(&material.name));
         Draw {
             base_color: material.base_color,
             emissive: material.emissive.extend(0.0),
@@ -326,7 +335,9 @@ impl<'a> Builder<'a> {
             base_uv_v,
             emissive_uv_u,
             emissive_uv_v,
-            object_id: node as u32 + 1,
+            object_id: ((node as u32 + 1) & gpu::ID_OBJECT)
+                | line_sets << gpu::ID_SETS_SHIFT
+                | through << gpu::ID_THROUGH_SHIFT,
             material_id: (material_index.map_or(0, |m| m + 1) & 0xffff) as u32,
             look_first: look.look_first,
             rule_first: look.rule_first,
@@ -336,7 +347,11 @@ impl<'a> Builder<'a> {
                 AlphaMode::Mask { cutoff } => cutoff,
                 AlphaMode::Opaque | AlphaMode::Blend => 0.0,
             },
-            line_sets,
+            line_width: if look.rule_count == 0 {
+                self.looks.looks[look.look_first as usize].line_width
+            } else {
+                -1.0
+            },
         }
     }
 
@@ -417,7 +432,7 @@ impl<'a> Builder<'a> {
             ],
         );
         let deform = self.deform_data(&geometry);
-        let strokes = self.stroke_data(&geometry);
+        let strokes = StrokeData::new(device, queue, self.layouts, &geometry, &self.draws, self.style);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {
@@ -426,9 +441,27 @@ impl<'a> Builder<'a> {
                 lights.len()
             ));
         }
-        let max_width_factor = self.looks.max_width_factor() * self.geometry.max_line_width;
+        let curves = |set: &LineSet| -> f32 {
+            strokes::curves(set).into_iter().flatten().map(style::Curve::largest).product()
+        };
+        let widest = self.style.lines.sets.iter().map(curves).fold(1.0, f32::max);
+        let max_width_factor =
+            self.looks.max_width_factor() * self.geometry.max_line_width * widest;
         warnings.extend(self.looks.warnings);
+        let mut anchors = HashMap::new();
+        for set in &self.style.lines.sets {
+            let Some(name) = &set.width_by.depth_from else { continue };
+            match self.scene.nodes.iter().position(|node| node.name == *name) {
+                Some(node) => drop(anchors.insert(name.clone(), (node, Vec3::ZERO))),
+                None => warnings.push(format!(
+                    "line set '{}' counts its depth from '{name}', which the scene does not have: \
+                     it is counted from the camera",
+                    set.name
+                )),
+            }
+        }
         Prepared {
+            anchors,
             style: self.style.clone(),
             geometry,
             draws: self.draws,
@@ -496,91 +529,9 @@ impl<'a> Builder<'a> {
             weight_count: self.weight_count as usize,
         }
     }
-
-    fn stroke_data(&self, geometry: &Geometry) -> StrokeData {
-        use wgpu::BufferUsages as Usage;
-        let device = self.device;
-        let mut edge_count = 0_usize;
-        // One uniform per run of edges, then one per draw's triangles.
-        let mut ranges = Vec::new();
-        let mut runs = Vec::new();
-        for (i, item) in self.draws.iter().enumerate() {
-            for &(place, count) in &item.chunk.edges {
-                edge_count += count as usize;
-                runs.push((item.world.page, place.page, ranges.len(), count));
-                ranges.push(StrokeRange {
-                    world_first: item.world.first,
-                    first: place.first,
-                    count,
-                    draw: i as u32,
-                });
-            }
-        }
-        let first_triangles = ranges.len();
-        ranges.extend(self.draws.iter().enumerate().map(|(i, item)| StrokeRange {
-            world_first: item.world.first,
-            first: item.chunk.indices.first,
-            count: item.chunk.index_count,
-            draw: i as u32,
-        }));
-        let uniforms = bindings::dynamic_uniforms(device, self.queue, "stroke ranges", &ranges);
-        let mut groups: HashMap<(usize, usize, bool), wgpu::BindGroup> = HashMap::new();
-        let mut group = |world: usize, page: usize, is_edges: bool| {
-            let items = if is_edges { &geometry.edges[page] } else { &geometry.indices[page] };
-            groups
-                .entry((world, page, is_edges))
-                .or_insert_with(|| {
-                    bindings::group(
-                        device,
-                        "stroke source",
-                        &self.layouts.stroke_source,
-                        &[
-                            (0, geometry.world[world].as_entire_binding()),
-                            (1, items.as_entire_binding()),
-                            (2, dynamic_binding::<StrokeRange>(&uniforms)),
-                        ],
-                    )
-                })
-                .clone()
-        };
-        let offset = |index: usize| (index as u64 * bindings::DYNAMIC_STRIDE) as u32;
-        let candidates =
-            runs.iter().map(|&(w, e, i, n)| (group(w, e, true), offset(i), n)).collect();
-        let reference = self
-            .draws
-            .iter()
-            .enumerate()
-            .map(|(i, item)| {
-                let at = offset(first_triangles + i);
-                (group(item.world.page, item.chunk.indices.page, false), at, item.chunk.index_count)
-            })
-            .collect();
-        // Every edge once, and the pieces of long ones.
-        let capacity = (edge_count + 65_536).min(PAGE_BYTES / size_of::<Segment>());
-        let segments = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("segments"),
-            size: (capacity * size_of::<Segment>()) as u64,
-            usage: Usage::STORAGE,
-            mapped_at_creation: false,
-        });
-        let arguments = bindings::buffer(
-            device,
-            self.queue,
-            "stroke arguments",
-            Usage::STORAGE | Usage::INDIRECT,
-            &[0_u32; 5],
-        );
-        let segment_group = bindings::group(
-            device,
-            "segments",
-            &self.layouts.segments,
-            &[(0, segments.as_entire_binding())],
-        );
-        StrokeData { segments, arguments, candidates, segment_group, reference }
-    }
 }
 
-fn dynamic_binding<T>(buffer: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
+pub(super) fn dynamic_binding<T>(buffer: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
     wgpu::BindingResource::Buffer(wgpu::BufferBinding {
         buffer,
         offset: 0,
