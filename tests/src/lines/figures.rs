@@ -135,10 +135,19 @@ pub fn contour_style(width: f64, height: u32, rest: &str) -> Style {
 /// If the scene cannot be drawn, or reaches behind the camera.
 #[must_use]
 pub fn measure(scene: &Scene, width: f64, view: &View) -> Figures {
+    let (ink, sight) = look(scene, width, view);
+    compare(&ink, &sight, width)
+}
+
+/// Draws the scene with lines `width` pixels wide, and says where they should be.
+///
+/// # Panics
+/// If the scene cannot be drawn, or reaches behind the camera.
+#[must_use]
+pub fn look(scene: &Scene, width: f64, view: &View) -> (Ink, Sight) {
     let style = contour_style(width, view.size[1], "");
     let picture = crate::draw_layers(scene, &style, view, &[LayerKind::Lines]);
-    let sight = Sight::new(scene, &Pose::rest(scene), view);
-    compare(&Ink::of(&picture), &sight, width)
+    (Ink::of(&picture), Sight::new(scene, &Pose::rest(scene), view))
 }
 
 /// Compares drawn lines with expected ones.

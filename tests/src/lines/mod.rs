@@ -12,6 +12,7 @@ pub mod ink;
 pub mod motion;
 pub mod outline;
 pub mod places;
+pub mod show;
 pub mod subjects;
 
 pub use expected::{Kind, Line, expected};

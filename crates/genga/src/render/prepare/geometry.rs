@@ -256,8 +256,12 @@ impl Part {
         let mut triangle = triangles.start;
         while triangle < triangles.end {
             let start = triangle;
-            let mut part =
-                Self { vertices: Vec::new(), indices: Vec::new(), own_indices: 0, edges: Vec::new() };
+            let mut part = Self {
+                vertices: Vec::new(),
+                indices: Vec::new(),
+                own_indices: 0,
+                edges: Vec::new(),
+            };
             let mut local = std::collections::HashMap::new();
             // The own vertices of a primitive are usually all there and in order.
             let own = topology.first_vertex[primitive]..topology.first_vertex[primitive + 1];
@@ -407,8 +411,8 @@ impl Geometry {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::topology::following;
+    use super::*;
     use crate::scene::Primitive;
 
     fn octahedral_unpack(bits: u32) -> Vec3 {
