@@ -96,6 +96,12 @@ impl Eye {
         if self.orthographic { height } else { height * distance }
     }
 
+    /// Whether lines of sight are parallel.
+    #[must_use]
+    pub fn is_orthographic(&self) -> bool {
+        self.orthographic
+    }
+
     /// Vector from a point towards the eye, not of unit length.
     #[must_use]
     pub fn towards(&self, p_in_world: DVec3) -> DVec3 {

@@ -62,11 +62,13 @@ pub(crate) enum Command {
 #[command(after_help = "\
 Workloads:
   suzuki  11,098 vertices at 1024x768 (Suzuki 2004, 5.2)
-  okuya   three objects at three sizes, two line methods (Okuya et al. 2015, table 3)
+  lines   what lines cost by the method of Okuya et al. 2015 and by ours: their tables 3 and 4,
+          and 300,000 triangles
   import  a file of a million triangles, read and prepared
 
 Each frame is drawn by turns with a plain one: the same geometry, one pass, Lambert and texture,
-no lines. The ratio of their medians is what compares across machines.
+no lines; in 'lines', by turns with the other method. The ratio of medians is what compares across
+machines.
 
 Examples:
   genga bench

@@ -16,12 +16,7 @@ pub(crate) fn aspect(size: [u32; 2]) -> f32 {
 }
 
 /// What the camera sees in a frame of an animation.
-pub(crate) fn view(
-    args: &PictureArgs,
-    source: &Source,
-    camera: ViewCamera,
-    frame: i64,
-) -> View {
+pub(crate) fn view(args: &PictureArgs, source: &Source, camera: ViewCamera, frame: i64) -> View {
     View {
         camera,
         size: size(args, source),

@@ -90,6 +90,47 @@ pub fn uv_sphere(segments: u32, rings: u32, radius: f32) -> Shape {
     shape
 }
 
+/// A bar round the Y axis with flat ends, its middle at the origin.
+///
+/// Its side is smooth, its ends have vertices of their own and so sharp rims. `segments` is kept
+/// within [3, 4096]; `radius` and `height` are in metres. It has `4 · segments − 4` triangles.
+/// The texture runs once round the side, its seam at −Z; the ends show its upper left corner.
+#[must_use]
+pub fn cylinder(segments: u32, radius: f32, height: f32) -> Shape {
+    let segments = segments.clamp(3, 4096);
+    let (radius, half) = (f64::from(radius), 0.5 * f64::from(height));
+    let mut shape = Shape::default();
+    let around = |column: u32| {
+        let turns = f64::from(column % segments) / f64::from(segments);
+        let (east, north) = libm::sincos(TAU * turns);
+        DVec3::new(-east, 0.0, -north) + DVec3::ZERO
+    };
+    for column in 0..=segments {
+        let out = around(column);
+        let u = (f64::from(column) / f64::from(segments)) as f32;
+        for (y, v) in [(half, 0.0), (-half, 1.0)] {
+            shape.push(out * radius + DVec3::Y * y, out);
+            shape.uvs.push(Vec2::new(u, v));
+        }
+    }
+    for column in 0..segments {
+        let top = 2 * column;
+        shape.indices.extend([top, top + 1, top + 3, top, top + 3, top + 2]);
+    }
+    for side in [1.0, -1.0] {
+        let first = shape.positions.len() as u32;
+        for column in 0..segments {
+            shape.push(around(column) * radius + DVec3::Y * (side * half), DVec3::Y * side);
+            shape.uvs.push(Vec2::ZERO);
+        }
+        for i in 1..segments - 1 {
+            let [a, b] = if side > 0.0 { [i, i + 1] } else { [i + 1, i] };
+            shape.indices.extend([first, first + a, first + b]);
+        }
+    }
+    shape
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,6 +165,18 @@ mod tests {
         }
         let full = 4.0 / 3.0 * PI;
         assert!((uv_sphere(96, 48, 1.0).signed_volume() / full - 1.0).abs() < 0.005);
+    }
+
+    #[test]
+    fn a_cylinder_is_closed_and_has_its_size() {
+        for segments in [3, 48] {
+            let shape = cylinder(segments, 0.5, 2.0);
+            assert_closed_and_outward(&shape);
+            assert_eq!(shape.triangle_count() as u32, 4 * segments - 4);
+            let angle = TAU / f64::from(segments);
+            let base = 0.5 * f64::from(segments) * 0.25 * angle.sin();
+            assert!((shape.signed_volume() - 2.0 * base).abs() < 1e-6);
+        }
     }
 
     #[test]

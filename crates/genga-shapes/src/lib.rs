@@ -8,7 +8,7 @@ mod smooth;
 
 use glam::{DVec3, Vec2, Vec3};
 
-pub use basic::{cuboid, plane, uv_sphere};
+pub use basic::{cuboid, cylinder, plane, uv_sphere};
 pub use smooth::{CountError, smooth_object, smooth_object_with_vertices};
 
 /// An indexed triangle mesh, counter-clockwise seen from outside.

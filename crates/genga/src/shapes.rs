@@ -25,6 +25,13 @@ pub fn uv_sphere(segments: u32, rings: u32, radius: f32) -> Primitive {
     primitive(genga_shapes::uv_sphere(segments, rings, radius))
 }
 
+/// A bar round the Y axis with flat ends and sharp rims, its middle at the origin: `segments`
+/// round the axis (3 to 4096), `radius` and `height` in metres.
+#[must_use]
+pub fn cylinder(segments: u32, radius: f32, height: f32) -> Primitive {
+    primitive(genga_shapes::cylinder(segments, radius, height))
+}
+
 /// A smooth, closed, bumpy object about 2 m across with exactly that many triangles, which
 /// share all of their `triangles / 2 + 2` vertices. Without texture coordinates.
 ///
@@ -67,6 +74,7 @@ mod tests {
             ("box", cuboid(Vec3::ONE)),
             ("plane", plane(Vec2::ONE)),
             ("ball", uv_sphere(12, 6, 1.0)),
+            ("bar", cylinder(12, 1.0, 1.0)),
             ("object", smooth_object(960).unwrap()),
         ];
         for (name, primitive) in shapes {

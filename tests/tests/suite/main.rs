@@ -2,6 +2,7 @@
 //! pipelines compile once.
 
 mod color;
+mod contours;
 mod edges;
 mod errors;
 mod geometry;

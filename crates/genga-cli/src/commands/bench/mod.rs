@@ -2,6 +2,7 @@
 
 mod frames;
 mod import;
+mod lines;
 mod report;
 mod sample;
 mod workload;
@@ -35,6 +36,14 @@ pub(crate) fn run(args: &BenchArgs, console: &Console) -> Outcome {
         match job {
             Job::Frames(case) => {
                 report.frames.push(frames::measure(case, runs, &graphics, console, &mut step)?);
+            }
+            Job::Lines(cell) => {
+                let cost = lines::measure(*cell, args, &graphics, console, &mut step)?;
+                let lines = match &mut report.lines {
+                    Some(lines) => lines,
+                    none => none.insert(lines::report(args)?),
+                };
+                lines.push(cost);
             }
             Job::Import { triangles } => {
                 report.import.push(import::measure(*triangles, runs, &graphics, &mut step)?);

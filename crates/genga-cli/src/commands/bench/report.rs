@@ -2,6 +2,7 @@ use serde::Serialize;
 
 use super::frames::FrameReport;
 use super::import::ImportReport;
+use super::lines::LinesReport;
 use super::sample::Summary;
 use crate::commands::adapters::AdapterInfo;
 use crate::text::{one_line, table, thousands};
@@ -15,6 +16,7 @@ pub(super) struct Report {
     /// Whether wgpu checks the arguments of indirect draws, which takes GPU time too.
     indirect_validation: bool,
     pub(super) frames: Vec<FrameReport>,
+    pub(super) lines: Option<LinesReport>,
     pub(super) import: Vec<ImportReport>,
 }
 
@@ -27,6 +29,7 @@ impl Report {
             adapter,
             indirect_validation: flags.contains(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL),
             frames: Vec::new(),
+            lines: None,
             import: Vec::new(),
         }
     }
@@ -47,6 +50,10 @@ impl Report {
         if self.frames.len() > 1 {
             text.push('\n');
             text.push_str(&overview(&self.frames));
+        }
+        if let Some(lines) = &self.lines {
+            text.push('\n');
+            text.push_str(&lines.text());
         }
         for import in &self.import {
             text.push('\n');

@@ -5,6 +5,7 @@ use genga::scene::{Pose, Scene};
 use genga::shapes;
 use genga::style::{LineMethod, Style};
 
+use super::lines;
 use crate::args::BenchArgs;
 use crate::console::Console;
 use crate::failure::{Failure, Outcome};
@@ -12,7 +13,7 @@ use crate::text::{nearest, one_line};
 use crate::{model, style_choice};
 
 /// Workloads with names; `--help` describes them.
-const NAMED: [&str; 3] = ["suzuki", "okuya", "import"];
+const NAMED: [&str; 3] = ["suzuki", "lines", "import"];
 
 /// Triangles of the `import` workload.
 const IMPORT_TRIANGLES: usize = 1_000_000;
@@ -21,6 +22,8 @@ const IMPORT_TRIANGLES: usize = 1_000_000;
 pub(super) enum Job {
     /// One frame, over and over.
     Frames(Box<Case>),
+    /// One place in the tables of what lines cost.
+    Lines(lines::Cell),
     /// Reading a file of so many triangles.
     Import { triangles: usize },
 }
@@ -45,27 +48,14 @@ pub(super) fn jobs(args: &BenchArgs, console: &Console) -> Outcome<Vec<Job>> {
                 let primitive =
                     shapes::smooth_object_with_vertices(11_098).map_err(Failure::message)?;
                 let scene = shapes::scene_of("smooth object", primitive);
-                jobs.push(case(args, "suzuki", scene, [1024, 768], None)?);
+                jobs.push(case(args, "suzuki", scene, [1024, 768])?);
             }
-            "okuya" => okuya(args, &mut jobs)?,
+            "lines" => jobs.extend(lines::cells(args).into_iter().map(Job::Lines)),
             "import" => jobs.push(Job::Import { triangles: IMPORT_TRIANGLES }),
             file => jobs.push(model_case(args, file, console)?),
         }
     }
     Ok(jobs)
-}
-
-fn okuya(args: &BenchArgs, jobs: &mut Vec<Job>) -> Outcome {
-    for triangles in [960, 9_566, 66_400] {
-        for size in [[1920, 1080], [1280, 720], [640, 360]] {
-            for method in [LineMethod::Reference, LineMethod::Contour] {
-                let primitive = shapes::smooth_object(triangles).map_err(Failure::message)?;
-                let scene = shapes::scene_of("smooth object", primitive);
-                jobs.push(case(args, "okuya", scene, size, Some(method))?);
-            }
-        }
-    }
-    Ok(())
 }
 
 fn model_case(args: &BenchArgs, file: &str, console: &Console) -> Outcome<Job> {
@@ -84,21 +74,12 @@ fn model_case(args: &BenchArgs, file: &str, console: &Console) -> Outcome<Job> {
     for warning in &model.warnings {
         console.warning(&one_line(&format!("{file}: {warning}")));
     }
-    case(args, &model::display_name(path), model.scene, [1920, 1080], None)
+    case(args, &model::display_name(path), model.scene, [1920, 1080])
 }
 
-fn case(
-    args: &BenchArgs,
-    workload: &str,
-    scene: Scene,
-    size: [u32; 2],
-    method: Option<LineMethod>,
-) -> Outcome<Job> {
+fn case(args: &BenchArgs, workload: &str, scene: Scene, size: [u32; 2]) -> Outcome<Job> {
     let chosen = style_choice::find(args.style.as_deref().unwrap_or(style_choice::DEFAULT))?;
-    let mut style = chosen.style;
-    if let Some(method) = method {
-        style.lines.method = method;
-    }
+    let style = chosen.style;
     let size = args.size.unwrap_or(size);
     let bounds = scene.bounds(&Pose::rest(&scene)).ok_or_else(|| {
         Failure::Message(format!("{workload}: there is nothing to draw: it has no triangles"))

@@ -38,7 +38,8 @@ impl CandidatePass {
         });
         pass.set_bind_group(0, group, &[]);
         let strokes = &prepared.strokes;
-        for (pipeline, runs) in [(&self.edges, &strokes.edges), (&self.contours, &strokes.contours)] {
+        for (pipeline, runs) in [(&self.edges, &strokes.edges), (&self.contours, &strokes.contours)]
+        {
             pass.set_pipeline(pipeline);
             for (group, offset, count) in runs {
                 pass.set_bind_group(1, group, &[*offset]);

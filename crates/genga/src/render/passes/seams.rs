@@ -6,10 +6,7 @@ use crate::render::gpu::{
     timing::Timer,
 };
 use crate::render::{
-    layouts::Layouts,
-    passes::link::SizePass,
-    prepare::Prepared,
-    targets::Targets,
+    layouts::Layouts, passes::link::SizePass, prepare::Prepared, targets::Targets,
 };
 
 pub(crate) struct SeamPass {

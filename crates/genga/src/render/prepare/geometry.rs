@@ -254,8 +254,7 @@ impl Part {
         let mut triangle = triangles.start;
         while triangle < triangles.end {
             let start = triangle;
-            let mut part =
-                Self {
+            let mut part = Self {
                 vertices: Vec::new(),
                 indices: Vec::new(),
                 own_indices: 0,
@@ -414,8 +413,8 @@ impl Geometry {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use super::super::topology::following;
+    use super::*;
     use crate::scene::Primitive;
 
     fn octahedral_unpack(bits: u32) -> Vec3 {

@@ -327,7 +327,8 @@ impl<'a> Builder<'a> {
             sets().filter(|(_, set)| on(set)).fold(0_u32, |bits, (i, _)| bits | 1 << i)
         };
         let line_sets = bits(&|set| set.matches(object, &material.name));
-        let through = bits(&|set| !set.through.patterns().is_empty() && set.through.matches(&material.name));
+        let through =
+            bits(&|set| !set.through.patterns().is_empty() && set.through.matches(&material.name));
         Draw {
             base_color: material.base_color,
             emissive: material.emissive.extend(0.0),
@@ -432,7 +433,8 @@ impl<'a> Builder<'a> {
             ],
         );
         let deform = self.deform_data(&geometry);
-        let strokes = StrokeData::new(device, queue, self.layouts, &geometry, &self.draws, self.style);
+        let strokes =
+            StrokeData::new(device, queue, self.layouts, &geometry, &self.draws, self.style);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {

@@ -55,7 +55,10 @@ impl StrokeData {
         let mut pages = Vec::new();
         let mut order = 0_u32;
         let mut run = |item: &DrawItem, draw: usize, edge_page: usize, first: u32, count: u32| {
-            pages.push(([item.world.page, edge_page, item.chunk.indices.page, item.chunk.rest.page], count));
+            pages.push((
+                [item.world.page, edge_page, item.chunk.indices.page, item.chunk.rest.page],
+                count,
+            ));
             ranges.push(StrokeRange {
                 world_first: item.world.first,
                 rest_first: item.chunk.rest.first,
@@ -113,9 +116,8 @@ impl StrokeData {
         let contours = runs.by_ref().take(contour_runs).collect();
         let reference = runs.collect();
 
-        let capacity = (line_count + FEWEST_PIECES)
-            .min(MOST_PIECES)
-            .min(PAGE_BYTES / size_of::<Piece>());
+        let capacity =
+            (line_count + FEWEST_PIECES).min(MOST_PIECES).min(PAGE_BYTES / size_of::<Piece>());
         let stored = |label: &str, bytes: usize, usage: Usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -131,10 +133,7 @@ impl StrokeData {
             indirect: stored("line arguments", 64, Usage::INDIRECT),
             buckets: stored("places of ends", 8 * capacity, none),
             links: stored("links", 8 * capacity, none),
-            ranks: [
-                stored("ranks", 16 * capacity, none),
-                stored("ranks", 16 * capacity, none),
-            ],
+            ranks: [stored("ranks", 16 * capacity, none), stored("ranks", 16 * capacity, none)],
             states: stored("states of pieces", 16 * capacity, none),
             places: stored("places of pieces", 16 * capacity, none),
             curves: curve_texture(device, queue, style),

@@ -141,8 +141,10 @@ impl Topology {
         let pairs = pair_sides(&whole, &welded);
         let smooth_normals = smooth_normals(&whole, &welded);
         let curvatures = curvatures(&whole, &welded, &pairs);
-        let mut edges: Vec<LineEdge> =
-            pairs.into_iter().filter_map(|(left, right)| line_edge(&whole, &line_ids, &is_smooth, left, right)).collect();
+        let mut edges: Vec<LineEdge> = pairs
+            .into_iter()
+            .filter_map(|(left, right)| line_edge(&whole, &line_ids, &is_smooth, left, right))
+            .collect();
         edges.sort_unstable_by_key(|edge| edge.left);
         Self {
             first_vertex: whole.first_vertex,
@@ -209,7 +211,8 @@ fn line_edge(
     edge.is_user = line_ids[left as usize / 3] != line_ids[right as usize / 3];
     let no_uvs: &[Vec2] = &[];
     let torn = |[a, b]: [u32; 2]| {
-        let uvs = [a, b].map(|v| whole.attribute(v, |p| p.uvs.first().map_or(no_uvs, |uvs| &uvs[..])));
+        let uvs =
+            [a, b].map(|v| whole.attribute(v, |p| p.uvs.first().map_or(no_uvs, |uvs| &uvs[..])));
         match uvs {
             [Some(a), Some(b)] => a.distance_squared(b) > 1e-10,
             _ => false,
@@ -285,11 +288,9 @@ fn pair_sides(whole: &Whole<'_>, welded: &[u32]) -> Vec<(Half, Option<Half>)> {
     let (triangles, _) = corners.as_chunks::<3>();
     let is_degenerate = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
     let sides = || {
-        triangles
-            .iter()
-            .enumerate()
-            .filter(|(_, t)| !is_degenerate(**t))
-            .flat_map(|(t, corners)| (0..3).map(move |i| (3 * t + i, corners[i], corners[(i + 1) % 3])))
+        triangles.iter().enumerate().filter(|(_, t)| !is_degenerate(**t)).flat_map(
+            |(t, corners)| (0..3).map(move |i| (3 * t + i, corners[i], corners[(i + 1) % 3])),
+        )
     };
     let mut starts = vec![0_u32; welded.len() + 1];
     for (_, a, b) in sides() {
@@ -317,8 +318,7 @@ fn pair_sides(whole: &Whole<'_>, welded: &[u32]) -> Vec<(Half, Option<Half>)> {
                 continue;
             }
             let (a, b) = ends(half);
-            let partner =
-                (i + 1..bucket.len()).find(|&j| !used[j] && ends(bucket[j]) == (b, a));
+            let partner = (i + 1..bucket.len()).find(|&j| !used[j] && ends(bucket[j]) == (b, a));
             let right = partner.map(|j| {
                 used[j] = true;
                 bucket[j]
@@ -346,9 +346,8 @@ fn smooth_normals(whole: &Whole<'_>, welded: &[u32]) -> Vec<Vec3> {
         }
     }
     let normals = whole.primitives.iter().flat_map(|p| &p.normals);
-    let of_place = |(&place, &normal): (&u32, &Vec3)| {
-        sums[place as usize].try_normalize().unwrap_or(normal)
-    };
+    let of_place =
+        |(&place, &normal): (&u32, &Vec3)| sums[place as usize].try_normalize().unwrap_or(normal);
     welded.iter().zip(normals).map(of_place).collect()
 }
 
@@ -357,7 +356,8 @@ fn smooth_normals(whole: &Whole<'_>, welded: &[u32]) -> Vec<Vec3> {
 fn curvatures(whole: &Whole<'_>, welded: &[u32], pairs: &[(Half, Option<Half>)]) -> Vec<f32> {
     let normals = smooth_normals(whole, welded);
     let mut sums = vec![(0.0_f32, 0.0_f32); welded.len()];
-    let positions: Vec<Vec3> = whole.primitives.iter().flat_map(|p| p.positions.iter().copied()).collect();
+    let positions: Vec<Vec3> =
+        whole.primitives.iter().flat_map(|p| p.positions.iter().copied()).collect();
     for &(half, _) in pairs {
         let primitive = whole.primitive_of_triangle(half / 3);
         let a = welded[whole.corner(primitive, half) as usize] as usize;
@@ -460,11 +460,8 @@ mod tests {
         let mut p = primitive(&[[0.0; 3], [0.0; 3]], &[]);
         p.joints = vec![[0; 4], [1, 0, 0, 0]];
         p.weights = vec![[1.0, 0.0, 0.0, 0.0]; 2];
-        let whole = Whole {
-            primitives: &[p],
-            first_vertex: vec![0, 2],
-            first_triangle: vec![0, 0],
-        };
+        let whole =
+            Whole { primitives: &[p], first_vertex: vec![0, 2], first_triangle: vec![0, 0] };
         assert_eq!(weld(&whole), [0, 1]);
     }
 

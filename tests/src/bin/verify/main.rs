@@ -2,6 +2,11 @@
 //!
 //! Exits with 1 if anything is not as it must be.
 
+mod contours;
+mod motion;
+mod outlines;
+mod scales;
+
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -37,7 +42,11 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 4] = [
+    let parts: [Part; 8] = [
+        ("contours", contours::contours),
+        ("outlines", outlines::outlines),
+        ("scales", scales::scales),
+        ("motion", motion::motion),
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
@@ -45,9 +54,8 @@ fn main() -> ExitCode {
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
-        eprintln!(
-            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, or none for all"
-        );
+        let names = parts.map(|(name, _)| name).join(", ");
+        eprintln!("there is no part '{unknown}': name some of {names}, or none for all");
         return ExitCode::FAILURE;
     }
     for (name, part) in parts {

@@ -1,5 +1,7 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod lines;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,7 +24,8 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
 pub(crate) fn gallery(root: &Path) -> Result<()> {
     let folder = root.join("assets/gallery");
     let pictures = draw(root, &folder, "480x270")?;
-    println!("\n{} pictures are in {}", pictures.len(), folder.display());
+    lines::draw(root, &folder)?;
+    println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
     Ok(())
 }
 
