@@ -179,7 +179,7 @@ pub struct Strokes {
 
 impl Default for Strokes {
     fn default() -> Self {
-        Self { min_length: 6.0, gap: 6.0 }
+        Self { min_length: 4.0, gap: 6.0 }
     }
 }
 

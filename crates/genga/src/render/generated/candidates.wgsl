@@ -45,7 +45,7 @@ var<storage, read> rest: array<RestVertex>;
 @group(1) @binding(4)
 var<uniform> range: StrokeRange;
 
-const CLEARLY_COVERED: f32 = 24.0;
+const CLEARLY_COVERED: f32 = 12.0;
 
 const COUNT_PIECES: u32 = 0u;
 

@@ -216,7 +216,8 @@ fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
         return Meeting(true, 0.5, middle);
     }
     let t = at_c / (at_c - at_q);
-    let meets = t > -0.25 && t < 1.25;
+    let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
+    let meets = (t > -0.25 && t < 1.25) || is_even;
     let inside = clamp(t, 0.0, 1.0);
     return Meeting(meets, inside, depth_c + inside * slope_c);
 }

@@ -47,6 +47,10 @@ const LINE_OBJECT: u32 = 4u;
 
 const LINE_USER: u32 = 32u;
 
+const PIECE_MEETS_A: u32 = 4096u;
+
+const PIECE_MEETS_B: u32 = 8192u;
+
 const PIECE_SEAM: u32 = 2048u;
 
 const SAME_FACE: f32 = 0.97;
@@ -237,6 +241,12 @@ fn is_marked(at: vec2i) -> bool {
     return ((atomicLoad(&marks[index >> 5u]) >> (index & 31u)) & 1u) != 0u;
 }
 
+fn is_on_line(side: i32, at: vec2i) -> bool {
+    let first = at + select(select(vec2i(0), vec2i(0, 1), side == 1), vec2i(1, 0), side == 3);
+    let second = first + select(vec2i(1, 0), vec2i(0, 1), side >= 2);
+    return is_marked(first) && is_marked(second);
+}
+
 fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
@@ -248,7 +258,8 @@ fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
         return Meeting(true, 0.5, middle);
     }
     let t = at_c / (at_c - at_q);
-    let meets = t > -0.25 && t < 1.25;
+    let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
+    let meets = (t > -0.25 && t < 1.25) || is_even;
     let inside = clamp(t, 0.0, 1.0);
     return Meeting(meets, inside, depth_c + inside * slope_c);
 }
@@ -330,7 +341,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     if (any(across >= vec2i(textureDimensions(ids)))) {
         return;
     }
-    if (is_marked(at) || is_marked(right) || is_marked(below) || is_marked(across)) {
+    if (is_marked(at) && is_marked(right) && is_marked(below) && is_marked(across)) {
         return;
     }
     var sides = array<Side, 4>(side_between(at, right), side_between(below, across), side_between(at, below), side_between(right, across));
@@ -382,6 +393,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     line.widths = vec2f(1.0);
     line.lights = vec2f(0.5);
     line.order = mixed(keys[0].x, keys[0].y);
+    var meets = PIECE_SEAM;
     if (count == 2u) {
         var is_first = true;
         for (var i = 0; i < 4; i++) {
@@ -393,14 +405,16 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
                 line.depth_a = sides[i].depth;
                 line.key_a = keys[i];
                 is_first = false;
+                meets |= select(0u, PIECE_MEETS_A, is_on_line(i, at));
             }
             else {
                 line.b = sides[i].p_px;
                 line.depth_b = sides[i].depth;
                 line.key_b = keys[i];
+                meets |= select(0u, PIECE_MEETS_B, is_on_line(i, at));
             }
         }
-        append(0.0, 1.0, width, width, sets | PIECE_SEAM, 0u);
+        append(0.0, 1.0, width, width, sets | meets, 0u);
         return;
     }
     for (var i = 0; i < 4; i++) {

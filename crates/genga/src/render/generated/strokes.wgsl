@@ -61,6 +61,10 @@ const PIECE_COVERED_A: u32 = 256u;
 
 const PIECE_COVERED_B: u32 = 512u;
 
+const PIECE_MEETS_A: u32 = 4096u;
+
+const PIECE_MEETS_B: u32 = 8192u;
+
 const SETS: u32 = 15u;
 
 const SET_COLOR_BASE: u32 = 2u;
@@ -281,7 +285,8 @@ fn ending(end: u32) -> Ending {
         return Ending(0.0, false, false, true);
     }
     let link = links[last];
-    let is_joined = (link & LINK_JUNCTION) != 0u;
+    let meets_bit = select(PIECE_MEETS_B, PIECE_MEETS_A, (last & 1u) == 0u);
+    let is_joined = (link & LINK_JUNCTION) != 0u || (pieces[last >> 1u].sets & meets_bit) != 0u;
     var is_cut = false;
     if ((link & LINK_END) != 0u) {
         let other = (link & LINK_END) - 1u;
@@ -509,10 +514,10 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     let ndc = ((p_px - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
     var flags = state & ~SETS;
     flags &= PIECE_CLOSED;
-    if (!start.is_closed && start.distance == 0.0 && !start.is_free && !start.is_joined) {
+    if (!start.is_closed && start.distance == 0.0 && !start.is_joined) {
         flags |= PIECE_COVERED_A;
     }
-    if (!end.is_closed && end.distance == 0.0 && !end.is_free && !end.is_joined) {
+    if (!end.is_closed && end.distance == 0.0 && !end.is_joined) {
         flags |= PIECE_COVERED_B;
     }
     return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b));
