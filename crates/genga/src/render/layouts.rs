@@ -18,7 +18,7 @@ pub(crate) struct Layouts {
     pub(crate) lines: wgpu::BindGroupLayout,
     /// Group 0 of `strokes`: frame, depth, ids, curves.
     pub(crate) strokes: wgpu::BindGroupLayout,
-    /// Group 1 of `strokes`: pieces, states, links, ranks.
+    /// Group 1 of `strokes`: pieces, states, links, ranks, places.
     pub(crate) linked: wgpu::BindGroupLayout,
     /// Group 0 of `reference`: frame, draws, mask.
     pub(crate) reference: wgpu::BindGroupLayout,
@@ -107,7 +107,13 @@ impl Layouts {
                 device,
                 "linked pieces",
                 S::VERTEX,
-                &[(0, B::Storage), (1, B::Storage), (2, B::Storage), (3, B::Storage)],
+                &[
+                    (0, B::Storage),
+                    (1, B::Storage),
+                    (2, B::Storage),
+                    (3, B::Storage),
+                    (4, B::Storage),
+                ],
             ),
             reference: layout(
                 device,

@@ -55,13 +55,15 @@ const DRAW_DOUBLE_SIDED: u32 = 16u;
 
 const DRAW_MIRRORED: u32 = 8u;
 
-const EDGE_HALF: u32 = 1073741823u;
+const EDGE_FLAT: u32 = 268435456u;
 
 const EDGE_HARD: u32 = 1073741824u;
 
 const EDGE_MATERIAL: u32 = 2147483648u;
 
-const EDGE_NONE: u32 = 1073741823u;
+const EDGE_NONE: u32 = 268435455u;
+
+const EDGE_SIDE: u32 = 268435455u;
 
 const EDGE_USER: u32 = 1073741824u;
 
@@ -71,11 +73,15 @@ const FRAME_LINE_COLORS: u32 = 128u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const FRAME_SMALL_DETECTION: u32 = 512u;
+
 const ID_OBJECT: u32 = 16777215u;
 
 const ID_SETS_SHIFT: u32 = 24u;
 
 const ID_THROUGH_SHIFT: u32 = 28u;
+
+const IN_FRONT: f32 = 2.0;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
@@ -105,7 +111,7 @@ const PIECE_LOOKUPS: u32 = 8u;
 
 const SET_HIDDEN: u32 = 1u;
 
-const SLACK: f32 = 1.0;
+const SLACK: f32 = 0.3;
 
 const STEP: f32 = 2.0;
 
@@ -379,18 +385,25 @@ fn corner_index(half: u32) -> u32 {
 
 fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
     let size = vec2i(textureDimensions(depths));
-    let local = p_px - frame.tile_origin - 0.5;
+    let local = p_px - frame.tile_origin - depth_place();
     let corner = vec2i(floor(local));
     let part = local - vec2f(corner);
     var least = 1e30;
+    var is_level = false;
     let nearest = vec2i(select(vec2f(0.0), vec2f(1.0), part > vec2f(0.5)));
     for (var i = 0; i < 4; i++) {
         let pick = (vec2i(i & 1, i >> 1) + nearest) & vec2i(1);
         let at = clamp(corner + pick, vec2i(0), size - 1);
         least = min(least, behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x));
-        if (least < slack) {
+        if (least < -IN_FRONT) {
             return 0.0;
         }
+        if (least < slack) {
+            is_level = true;
+        }
+    }
+    if (is_level) {
+        return select(1.0, 0.0, is_own_near(p_px));
     }
     for (var i = 0; i < 4; i++) {
         let pick = vec2i(i & 1, i >> 1);
@@ -400,9 +413,9 @@ fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
         let offset = abs(vec2f(pick) - part);
         let gone = depth + (depth - textureLoad(depths, vec2i(away.x, at.y), 0).x) * offset.x + (depth - textureLoad(depths, vec2i(at.x, away.y), 0).x) * offset.y;
         least = min(least, behind_in_pixels(frame, line_depth, gone));
-        if (least < slack) {
-            return 0.0;
-        }
+    }
+    if (least < slack) {
+        return select(1.0, 0.0, is_own_near(p_px));
     }
     return least;
 }
@@ -425,6 +438,16 @@ fn depth_at(p_px: vec2f) -> f32 {
     return textureLoad(depths, at, 0).x;
 }
 
+fn depth_place() -> vec2f {
+    if ((frame.flags & FRAME_SMALL_DETECTION) == 0u) {
+        return vec2f(0.5);
+    }
+    if (frame.paint_scale < 1.5) {
+        return vec2f(0.375, 0.125);
+    }
+    return vec2f((floor(0.5 * frame.paint_scale) + 0.5) / frame.paint_scale);
+}
+
 fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return mix(frame.depth_range.y, frame.depth_range.x, depth);
@@ -445,6 +468,20 @@ fn in_space(t: f32) -> f32 {
         return t;
     }
     return t * line.depth_b / max(mix(line.depth_a, line.depth_b, t), 1e-30);
+}
+
+fn is_own_near(p_px: vec2f) -> bool {
+    let size = vec2i(textureDimensions(ids));
+    let middle = texel_of(p_px);
+    for (var i = 0; i < 9; i++) {
+        let pick = (i + 4) % 9;
+        let at = clamp(middle + vec2i(pick % 3 - 1, pick / 3 - 1), vec2i(0), size - 1);
+        let found = textureLoad(ids, at, 0).xy;
+        if (((found.x ^ line.owner) & ID_OBJECT) == 0u && (found.y & 65535u) == line.material) {
+            return true;
+        }
+    }
+    return false;
 }
 
 fn key_of(p: vec3f) -> vec2u {
@@ -779,16 +816,10 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     if (number >= range.count) {
         return;
     }
-    let half = 3u * (range.first + number);
+    let half = edges[range.first + number].left;
     let i0 = corner_index(half);
     let i1 = corner_index(half + 1u);
     let i2 = corner_index(half + 2u);
-    let n0 = world[range.world_first + i0].normal;
-    let n1 = world[range.world_first + i1].normal;
-    let n2 = world[range.world_first + i2].normal;
-    if (n0 == n1 && n1 == n2) {
-        return;
-    }
     let c0 = corner_at(i0);
     let c1 = corner_at(i1);
     let c2 = corner_at(i2);
@@ -857,8 +888,8 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         return;
     }
     let edge = edges[range.first + number];
-    let left = edge.left & EDGE_HALF;
-    let right = edge.right & EDGE_HALF;
+    let left = edge.left & EDGE_SIDE;
+    let right = edge.right & EDGE_SIDE;
     let i0 = corner_index(left);
     let i1 = corner_index(following(left));
     let third = place(corner_index(following(following(left))));
@@ -881,8 +912,12 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     }
     start_line(range.order_first + number);
     var facing_left = vec2f(c0.facing, c1.facing);
+    if ((edge.left & EDGE_FLAT) != 0u) {
+        facing_left = vec2f(dot(left_normal, facing_vector(frame, c0.p)));
+    }
     var facing_right = -facing_left;
     var right_third = third;
+    var right_corners = array<Corner, 2>(c0, c1);
     var right_normal = -left_normal;
     if (right == EDGE_NONE) {
         known |= LINE_BORDER;
@@ -892,7 +927,11 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         let r0 = corner_at(corner_index(following(right)));
         right_third = place(corner_index(following(following(right))));
         facing_right = vec2f(r0.facing, r1.facing);
+        right_corners = array<Corner, 2>(r0, r1);
         right_normal = side * cross(c0.p - c1.p, right_third - c1.p);
+        if ((edge.right & EDGE_FLAT) != 0u) {
+            facing_right = vec2f(dot(right_normal, facing_vector(frame, c0.p)));
+        }
         if ((edge.left & EDGE_HARD) != 0u) {
             let lengths = sqrt(dot(left_normal, left_normal)) * sqrt(dot(right_normal, right_normal));
             let cosine = dot(left_normal, right_normal) / max(lengths, 1e-37);
@@ -903,7 +942,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
     }
     known &= sources;
-    let is_hard = (edge.left & EDGE_HARD) != 0u || right == EDGE_NONE;
+    let is_hard = (edge.left & (EDGE_HARD | EDGE_FLAT)) != 0u || (edge.right & EDGE_FLAT) != 0u || right == EDGE_NONE;
     let left_changes = facing_left.x * facing_left.y < 0.0;
     let right_changes = facing_right.x * facing_right.y < 0.0;
     let can_be_silhouette = is_hard && (left_changes || right_changes || facing_left.x * facing_right.x < 0.0 || facing_left.y * facing_right.y < 0.0);
@@ -911,14 +950,20 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         return;
     }
     var cuts = vec4f(0.0, 1.0, 1.0, 1.0);
+    var keys = array<vec2u, 4>(key_of(c0.p), key_of(c1.p), key_of(c1.p), key_of(c1.p));
     if (is_hard && left_changes) {
         cuts.y = facing_left.x / (facing_left.x - facing_left.y);
+        keys[1] = key_of(crossing(c0, c1).p);
     }
     if (is_hard && right_changes && right != EDGE_NONE) {
         cuts.z = facing_right.x / (facing_right.x - facing_right.y);
+        keys[2] = key_of(crossing(right_corners[0], right_corners[1]).p);
     }
     if (cuts.y > cuts.z) {
         cuts = cuts.xzyw;
+        let first = keys[1];
+        keys[1] = keys[2];
+        keys[2] = first;
     }
     let rest_0 = rest_position(i0);
     let rest_1 = rest_position(i1);
@@ -948,8 +993,8 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         line.types = all_known | select(0u, LINE_SILHOUETTE, is_silhouette);
         let p0 = mix(c0.p, c1.p, s0);
         let p1 = mix(c0.p, c1.p, s1);
-        line.key_a = select(vec2u(0u), key_of(c0.p), s0 <= 0.0);
-        line.key_b = select(vec2u(0u), key_of(c1.p), s1 >= 1.0);
+        line.key_a = keys[i];
+        line.key_b = keys[i + 1];
         line.widths = vec2f(mix(c0.width, c1.width, s0), mix(c0.width, c1.width, s1));
         line.curvatures = vec2f(mix(c0.curvature, c1.curvature, s0), mix(c0.curvature, c1.curvature, s1));
         line.lights = vec2f(mix(light.x, light.y, s0), mix(light.x, light.y, s1));

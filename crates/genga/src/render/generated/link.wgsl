@@ -24,6 +24,9 @@ var<storage, read_write> there: array<vec2u>;
 @group(0) @binding(7)
 var<storage, read_write> states: array<vec4u>;
 
+@group(0) @binding(8)
+var<storage, read_write> places: array<vec4f>;
+
 const COUNT_PIECES: u32 = 0u;
 
 const CURVATURE_REACH: f32 = 8.0;
@@ -41,6 +44,10 @@ const MAX_HOPS: u32 = 32u;
 const NOWHERE: u32 = 4294967295u;
 
 const PIECE_CLOSED: u32 = 1024u;
+
+const PIECE_SEAM: u32 = 2048u;
+
+const SEAM_REACH: f32 = 4.0;
 
 const SETS: u32 = 15u;
 
@@ -210,20 +217,18 @@ fn piece_count() -> u32 {
     return min(counters[COUNT_PIECES], arrayLength(&pieces));
 }
 
-fn place_from(end: u32, reach: f32) -> vec2f {
+fn place_from(entered: u32, reach: f32) -> vec2f {
     var left = reach;
-    var at = end;
+    var at = entered;
     for (var i = 0u; i < MAX_HOPS; i++) {
         let length_px = length_of(at >> 1u);
-        let from_px = end_place(at);
-        let to_px = end_place(at ^ 1u);
         if (length_px >= left) {
-            return mix(from_px, to_px, left / max(length_px, 1e-6));
+            return mix(end_place(at), end_place(at ^ 1u), left / max(length_px, 1e-6));
         }
         left -= length_px;
-        let next = onward(at ^ 1u);
+        let next = beyond(at ^ 1u);
         if (next == NOWHERE) {
-            return to_px;
+            break;
         }
         at = next;
     }
@@ -242,6 +247,21 @@ fn screen_curvature(end: u32) -> f32 {
     let area = abs(a.x * b.y - a.y * b.x);
     let sides = length(a) * length(b) * length(a - b);
     return 2.0 * area / max(sides, 1e-6);
+}
+
+fn smoothed(end: u32) -> vec2f {
+    let p = end_place(end);
+    let other = beyond(end);
+    if (other == NOWHERE) {
+        return p;
+    }
+    let reach = SEAM_REACH / min(frame.gbuffer_scale, 1.0);
+    var sum = 2.0 * p;
+    for (var i = 1; i <= 3; i++) {
+        let away = reach * f32(i) / 3.0;
+        sum += place_from(end, away) + place_from(other, away);
+    }
+    return sum / 8.0;
 }
 
 @compute @workgroup_size(64)
@@ -301,6 +321,12 @@ fn close(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         }
     }
     states[piece] = state;
+    if ((sets & PIECE_SEAM) != 0u) {
+        places[piece] = vec4f(smoothed(2u * piece), smoothed(2u * piece + 1u));
+    }
+    else {
+        places[piece] = vec4f(pieces[piece].a, pieces[piece].b);
+    }
 }
 
 @compute @workgroup_size(64)

@@ -47,6 +47,8 @@ const LINE_OBJECT: u32 = 4u;
 
 const LINE_USER: u32 = 32u;
 
+const PIECE_SEAM: u32 = 2048u;
+
 const SAME_FACE: f32 = 0.97;
 
 const SET_HIDDEN: u32 = 1u;
@@ -398,7 +400,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
                 line.key_b = keys[i];
             }
         }
-        append(0.0, 1.0, width, width, sets, 0u);
+        append(0.0, 1.0, width, width, sets | PIECE_SEAM, 0u);
         return;
     }
     for (var i = 0; i < 4; i++) {
@@ -412,7 +414,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         line.depth_b = depth;
         line.key_b = side_key(at, 1u) ^ vec2u(1073741824u, 1u);
         line.order = line.order + 1u;
-        append(0.0, 1.0, width, width, sets, 0u);
+        append(0.0, 1.0, width, width, sets | PIECE_SEAM, 0u);
     }
 }
 

@@ -24,6 +24,11 @@ var<storage, read> links: array<u32>;
 @group(1) @binding(3)
 var<storage, read> ranks: array<vec2u>;
 
+@group(1) @binding(4)
+var<storage, read> places: array<vec4f>;
+
+const BEFORE_CUT: f32 = 3.0;
+
 const CURVE_COUNT: u32 = 5u;
 
 const CURVE_CURVATURE: u32 = 1u;
@@ -45,6 +50,8 @@ const LINK_END: u32 = 1073741823u;
 const LINK_JUNCTION: u32 = 2147483648u;
 
 const MAX_RADIUS: f32 = 256.0;
+
+const NEAR_LINE: f32 = 1.25;
 
 const ON_SURFACE: f32 = 2.0;
 
@@ -320,11 +327,11 @@ fn ink_at(in: Stroke) -> Ink {
         var spine = mix(a, b, place.t);
         let along = b - a;
         let unit = along * inverseSqrt(max(dot(along, along), 1e-12));
-        if ((in.what.y & PIECE_COVERED_B) != 0u && distance(spine, b) < 1.5) {
-            spine = b - 1.5 * unit;
+        if ((in.what.y & PIECE_COVERED_B) != 0u && distance(spine, b) < BEFORE_CUT) {
+            spine = b - BEFORE_CUT * unit;
         }
-        if ((in.what.y & PIECE_COVERED_A) != 0u && distance(spine, a) < 1.5) {
-            spine = a + 1.5 * unit;
+        if ((in.what.y & PIECE_COVERED_A) != 0u && distance(spine, a) < BEFORE_CUT) {
+            spine = a + BEFORE_CUT * unit;
         }
         var covered = false;
         if ((in.what.y & PIECE_CLOSED) != 0u) {
@@ -353,20 +360,22 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32) -> bool {
     }
     let way = spine_px - p_px;
     let length_px = length(way);
-    if (length_px < 0.75) {
+    if (length_px <= NEAR_LINE) {
         return false;
     }
     let unit = way / length_px;
     var fall = max(behind(p_px - unit, line_depth) - here, 0.0);
-    let steps = u32(clamp(ceil(length_px - 0.75), 1.0, 48.0));
+    let steps = u32(clamp(ceil(length_px - NEAR_LINE), 1.0, 48.0));
+    var next = behind(p_px + unit * min(1.0, length_px - NEAR_LINE), line_depth);
     for (var i = 1u; i <= steps; i++) {
-        let next = behind(p_px + unit * min(f32(i), length_px - 0.25), line_depth);
+        let after = behind(p_px + unit * min(f32(i) + 1.0, length_px), line_depth);
         let drop = here - next;
-        if (drop > STEP && drop > 3.0 * fall + STEP) {
+        if (drop > STEP + 3.0 * max(fall, max(next - after, 0.0))) {
             return true;
         }
         fall = max(drop, 0.0);
         here = next;
+        next = after;
         if (here <= ON_SURFACE) {
             return false;
         }
@@ -481,9 +490,9 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     if (((state >> line_set) & 1u) == 0u) {
         return nothing;
     }
-    var a = pieces[piece].a;
-    var b = pieces[piece].b;
-    let own = distance(a, b);
+    var a = places[piece].xy;
+    var b = places[piece].zw;
+    let own = distance(pieces[piece].a, pieces[piece].b);
     let start = ending(2u * piece);
     let end = ending(2u * piece + 1u);
     let whole = start.distance + own + end.distance;

@@ -183,10 +183,11 @@ const _: () = assert!(
     std::mem::offset_of!(Draw, line_width) == 124,
     "offset of Draw.line_width does not match WGSL"
 );
-pub(crate) const EDGE_HALF: u32 = 1073741823u32;
+pub(crate) const EDGE_FLAT: u32 = 268435456u32;
 pub(crate) const EDGE_HARD: u32 = 1073741824u32;
 pub(crate) const EDGE_MATERIAL: u32 = 2147483648u32;
-pub(crate) const EDGE_NONE: u32 = 1073741823u32;
+pub(crate) const EDGE_NONE: u32 = 268435455u32;
+pub(crate) const EDGE_SIDE: u32 = 268435455u32;
 pub(crate) const EDGE_USER: u32 = 1073741824u32;
 pub(crate) const EDGE_UV_SEAM: u32 = 2147483648u32;
 #[repr(C)]
@@ -575,6 +576,7 @@ pub(crate) const METHOD_RIM: u32 = 4u32;
 pub(crate) const PIECE_CLOSED: u32 = 1024u32;
 pub(crate) const PIECE_COVERED_A: u32 = 256u32;
 pub(crate) const PIECE_COVERED_B: u32 = 512u32;
+pub(crate) const PIECE_SEAM: u32 = 2048u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Piece {

@@ -34,6 +34,7 @@ impl LinkPass {
             (5, B::StorageWrite),
             (6, B::StorageWrite),
             (7, B::StorageWrite),
+            (8, B::StorageWrite),
         ];
         let layout = layout(device, "link", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "link", &[&layout]);
@@ -72,6 +73,7 @@ impl LinkPass {
                     (5, strokes.ranks[here].as_entire_binding()),
                     (6, strokes.ranks[1 - here].as_entire_binding()),
                     (7, strokes.states.as_entire_binding()),
+                    (8, strokes.places.as_entire_binding()),
                 ],
             )
         };

@@ -62,6 +62,7 @@ impl StrokePass {
                 (1, strokes.states.as_entire_binding()),
                 (2, strokes.links.as_entire_binding()),
                 (3, strokes.ranks[LinkPass::RANKED].as_entire_binding()),
+                (4, strokes.places.as_entire_binding()),
             ],
         );
         let draw = |pass: &mut wgpu::RenderPass<'_>, pipeline| {

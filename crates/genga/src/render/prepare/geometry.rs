@@ -6,7 +6,7 @@ use super::{
     pages::{PAGE_BYTES, Pages, Place},
     topology::{LineEdge, Topology},
 };
-use crate::render::generated::{Edge, RestVertex, WorldVertex};
+use crate::render::generated::{EDGE_NONE, Edge, RestVertex, WorldVertex};
 use crate::scene::{Mesh, MorphTarget};
 
 /// What a vertex keeps through deformation.
@@ -29,10 +29,10 @@ pub(crate) struct Chunk {
     pub(crate) indices: Place,
     /// Own triangles; the neighbours' that its edges need follow them.
     pub(crate) index_count: u32,
-    /// Some triangle's corners have different normals.
-    pub(crate) is_smooth: bool,
     /// Runs of edges: place and count.
     pub(crate) edges: Vec<(Place, u32)>,
+    /// Runs of triangles that contours run through, among the edges.
+    pub(crate) contours: Vec<(Place, u32)>,
     pub(crate) morph: Place,
     pub(crate) target_count: u32,
     /// Middle of the rest positions.
@@ -149,10 +149,6 @@ impl GeometryBuilder {
                 line_id: primitive.line_ids.get(v).map_or(0, |&id| id.min(0xffff)),
             });
         }
-        let is_smooth = part.indices[..part.own_indices].chunks_exact(3).any(|t| {
-            let normals = [0, 1, 2].map(|i| rest[t[i] as usize].normal);
-            normals[0] != normals[1] || normals[1] != normals[2]
-        });
         let rest_place = self.rest.add(&rest);
         if self.attributes.len() <= rest_place.page {
             self.attributes.resize_with(rest_place.page + 1, Vec::new);
@@ -164,8 +160,8 @@ impl GeometryBuilder {
             vertex_count: part.vertices.len() as u32,
             indices: self.indices.add(&part.indices),
             index_count: part.own_indices as u32,
-            is_smooth,
             edges: self.edges.add_pieces(&part.edges),
+            contours: self.edges.add_pieces(&part.contours),
             morph,
             target_count,
             center: 0.5 * (low + high),
@@ -221,6 +217,8 @@ struct Part {
     indices: Vec<u32>,
     own_indices: usize,
     edges: Vec<Edge>,
+    /// Triangles that contours run through.
+    contours: Vec<Edge>,
 }
 
 /// Corners that an own triangle and its three neighbours can bring.
@@ -261,6 +259,7 @@ impl Part {
                 indices: Vec::new(),
                 own_indices: 0,
                 edges: Vec::new(),
+                contours: Vec::new(),
             };
             let mut local = std::collections::HashMap::new();
             // The own vertices of a primitive are usually all there and in order.
@@ -288,6 +287,9 @@ impl Part {
                 }
                 let (corners, turn) = turned(mesh, topology, triangle);
                 turns.push(turn as u8);
+                if topology.is_smooth[triangle as usize] {
+                    part.contours.push(Edge { left: part.indices.len() as u32, right: EDGE_NONE });
+                }
                 for v in corners {
                     let v = to_local(&mut part.vertices, v);
                     part.indices.push(v);
@@ -455,7 +457,7 @@ mod tests {
 
     /// The ends of all edges and the far corners of both faces.
     fn all_edges(builder: &GeometryBuilder, chunks: &[Chunk]) -> Vec<[Option<[i32; 2]>; 4]> {
-        use crate::render::generated::{EDGE_HALF, EDGE_NONE};
+        use crate::render::generated::EDGE_SIDE;
         let mut all = Vec::new();
         for chunk in chunks {
             let corner = |half: u32| {
@@ -467,7 +469,7 @@ mod tests {
             for (at, count) in &chunk.edges {
                 let page = &builder.edges.pages[at.page];
                 for e in &page[at.first as usize..(at.first + count) as usize] {
-                    let (left, right) = (e.left & EDGE_HALF, e.right & EDGE_HALF);
+                    let (left, right) = (e.left & EDGE_SIDE, e.right & EDGE_SIDE);
                     let far = |half| corner(following(following(half)));
                     let across = if right == EDGE_NONE { None } else { far(right) };
                     all.push([corner(left), corner(following(left)), far(left), across]);

@@ -23,6 +23,7 @@ pub(crate) struct StrokeData {
     /// Ranks of the ends, read and written by turns.
     pub(crate) ranks: [wgpu::Buffer; 2],
     pub(crate) states: wgpu::Buffer,
+    pub(crate) places: wgpu::Buffer,
     /// See `shaders/passes/strokes.wesl`.
     pub(crate) curves: wgpu::TextureView,
     /// Hard edges.
@@ -77,12 +78,11 @@ impl StrokeData {
                 run(item, i, place.page, place.first, count);
             }
         }
-        let smooth = |item: &&(usize, &DrawItem)| item.1.chunk.is_smooth;
-        let smooth_draws: Vec<_> = draws.iter().enumerate().collect();
-        for (i, item) in smooth_draws.iter().filter(smooth) {
-            let triangles = item.chunk.index_count / 3;
-            line_count += triangles as usize / 8;
-            run(item, *i, 0, 0, triangles);
+        for (i, item) in draws.iter().enumerate() {
+            for &(place, count) in &item.chunk.contours {
+                line_count += count as usize / 8;
+                run(item, i, place.page, place.first, count);
+            }
         }
         for (i, item) in draws.iter().enumerate() {
             run(item, i, 0, 0, item.chunk.index_count);
@@ -111,7 +111,7 @@ impl StrokeData {
             (group, (i as u64 * DYNAMIC_STRIDE) as u32, count)
         });
         let edge_runs = draws.iter().map(|item| item.chunk.edges.len()).sum();
-        let contour_runs = draws.iter().filter(|item| item.chunk.is_smooth).count();
+        let contour_runs = draws.iter().map(|item| item.chunk.contours.len()).sum();
         let edges = runs.by_ref().take(edge_runs).collect();
         let contours = runs.by_ref().take(contour_runs).collect();
         let reference = runs.collect();
@@ -135,6 +135,7 @@ impl StrokeData {
             links: stored("links", 8 * capacity, none),
             ranks: [stored("ranks", 16 * capacity, none), stored("ranks", 16 * capacity, none)],
             states: stored("states of pieces", 16 * capacity, none),
+            places: stored("places of pieces", 16 * capacity, none),
             curves: curve_texture(device, queue, style),
             edges,
             contours,

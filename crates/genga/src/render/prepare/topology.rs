@@ -22,6 +22,8 @@ pub(crate) struct LineEdge {
     /// `None` on a border.
     pub(crate) right: Option<Half>,
     pub(crate) is_hard: bool,
+    /// Left and right triangle: far from their corners' normals.
+    pub(crate) is_flat: [bool; 2],
     pub(crate) is_material: bool,
     pub(crate) is_user: bool,
     pub(crate) is_uv_seam: bool,
@@ -33,9 +35,11 @@ impl LineEdge {
         let flag = |on: bool, bit: u32| if on { bit } else { 0 };
         gpu::Edge {
             left: left
+                | flag(self.is_flat[0], gpu::EDGE_FLAT)
                 | flag(self.is_hard, gpu::EDGE_HARD)
                 | flag(self.is_material, gpu::EDGE_MATERIAL),
             right: right.unwrap_or(gpu::EDGE_NONE)
+                | flag(self.is_flat[1], gpu::EDGE_FLAT)
                 | flag(self.is_user, gpu::EDGE_USER)
                 | flag(self.is_uv_seam, gpu::EDGE_UV_SEAM),
         }
@@ -57,7 +61,14 @@ pub(crate) struct Topology {
     pub(crate) curvatures: Vec<f32>,
     /// User line id of each triangle.
     pub(crate) line_ids: Vec<u32>,
+    /// Whether contours run through a triangle, not along its sides.
+    pub(crate) is_smooth: Vec<bool>,
 }
+
+/// Cosine of the largest angle between a triangle and its corners' normals up to which it is taken
+/// for a part of a smooth surface. The contour of a coarser one would lie too far from the outline
+/// that its triangles have on the picture.
+const SMOOTH_COSINE: f32 = 0.978;
 
 /// Cosine under which two normals at one place are different ones.
 const SAME_NORMAL: f32 = 0.9995;
@@ -126,12 +137,13 @@ impl Topology {
             let (triangles, _) = primitive.indices.as_chunks::<3>();
             line_ids.extend(triangles.iter().map(|t| face_id(t.map(id))));
         }
+        let is_smooth = smooth_triangles(&whole);
         let pairs = pair_sides(&whole, &welded);
         let smooth_normals = smooth_normals(&whole, &welded);
         let curvatures = curvatures(&whole, &welded, &pairs);
         let mut edges: Vec<LineEdge> = pairs
             .into_iter()
-            .filter_map(|(left, right)| line_edge(&whole, &line_ids, left, right))
+            .filter_map(|(left, right)| line_edge(&whole, &line_ids, &is_smooth, left, right))
             .collect();
         edges.sort_unstable_by_key(|edge| edge.left);
         Self {
@@ -141,6 +153,7 @@ impl Topology {
             smooth_normals,
             curvatures,
             line_ids,
+            is_smooth,
         }
     }
 
@@ -150,10 +163,26 @@ impl Topology {
     }
 }
 
+/// Triangles whose corners' normals differ, and not too much from their own.
+fn smooth_triangles(whole: &Whole<'_>) -> Vec<bool> {
+    let of_primitive = |primitive: &Primitive| {
+        let (triangles, _) = primitive.indices.as_chunks::<3>();
+        let is_smooth = |triangle: &[u32; 3]| {
+            let p = triangle.map(|v| primitive.positions[v as usize]);
+            let n = triangle.map(|v| primitive.normals[v as usize]);
+            let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+            (n[0] != n[1] || n[1] != n[2]) && n.iter().all(|n| n.dot(face) > SMOOTH_COSINE)
+        };
+        triangles.iter().map(is_smooth).collect::<Vec<_>>()
+    };
+    whole.primitives.iter().flat_map(of_primitive).collect()
+}
+
 /// What makes an edge a line; `None` for the smooth ones inside of a surface.
 fn line_edge(
     whole: &Whole<'_>,
     line_ids: &[u32],
+    is_smooth: &[bool],
     left: Half,
     right: Option<Half>,
 ) -> Option<LineEdge> {
@@ -161,6 +190,7 @@ fn line_edge(
         left,
         right,
         is_hard: true,
+        is_flat: [!is_smooth[left as usize / 3], right.is_some_and(|r| !is_smooth[r as usize / 3])],
         is_material: false,
         is_user: false,
         is_uv_seam: false,
@@ -189,7 +219,8 @@ fn line_edge(
         }
     };
     edge.is_uv_seam = ends.into_iter().any(torn);
-    (edge.is_hard || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
+    let is_flat = edge.is_flat.contains(&true);
+    (edge.is_hard || is_flat || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
 }
 
 /// For each vertex the first one at the same place with the same bones: split normals, UV seams
