@@ -92,7 +92,6 @@ fn outliers(a: &Ink, b: &Ink) -> f64 {
 }
 
 #[test]
-#[ignore = "contour does not draw it so yet"]
 fn polylines_are_unions_of_capsules_at_every_angle() {
     let size = [192, 192];
     let view = ortho_view(size, 2.0);
