@@ -9,6 +9,7 @@ use glam::DVec2;
 
 use super::ink::Ink;
 use super::places::{Place, STEP_PX, Seen};
+use super::show::leave;
 use super::{Line, expected, places};
 use crate::eye::Eye;
 use crate::reference::{Triangle, cast, triangles};
@@ -272,11 +273,12 @@ fn longest_cluster<'a>(places: &[&'a Place]) -> Option<(f64, &'a Place)> {
 }
 
 /// Draws each object's lines alone and counts those of its pixels that lie on what hides them.
+/// Where there are any, a picture of that name is left in `out/lines`.
 ///
 /// # Panics
 /// If the scene cannot be drawn, or reaches behind the camera.
 #[must_use]
-pub fn measure_owners(scene: &Scene, width: f64, view: &View) -> Figures {
+pub fn measure_owners(scene: &Scene, width: f64, view: &View, name_of_picture: &str) -> Figures {
     let sight = Sight::new(scene, &Pose::rest(scene), view);
     let hits = cast(view, &sight.triangles);
     let mut figures = Figures::default();
@@ -296,6 +298,7 @@ pub fn measure_owners(scene: &Scene, width: f64, view: &View) -> Figures {
             let p = place.p_px.floor();
             own.entry((p.x as i64, p.y as i64)).or_default().push(place);
         }
+        let before_this = figures.over;
         let seen = |x: u32, y: u32| hits[(y * view.size[0] + x) as usize];
         for (x, y) in ink.places(FAINT) {
             let inside = x > 0 && y > 0 && x + 1 < ink.width && y + 1 < ink.height;
@@ -333,6 +336,9 @@ pub fn measure_owners(scene: &Scene, width: f64, view: &View) -> Figures {
                 figures.over += 1;
                 figures.places.push(format!("'{name}' drawn over object {before} at ({x}, {y})"));
             }
+        }
+        if figures.over > before_this {
+            leave(&ink, &sight, &format!("{name_of_picture}-{name}"));
         }
     }
     figures

@@ -21,7 +21,7 @@ pub(crate) fn contours(report: &mut Report) {
                 let (ink, sight) = look(&scene, width, view);
                 let mut one = compare(&ink, &sight, width);
                 if width == 3.0 && scene.nodes.iter().filter(|n| n.mesh.is_some()).count() > 1 {
-                    let owners = measure_owners(&scene, width, view);
+                    let owners = measure_owners(&scene, width, view, &format!("{name}-{i}"));
                     one.over = owners.over;
                     one.places.extend(owners.places);
                 }

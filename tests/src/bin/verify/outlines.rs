@@ -6,6 +6,7 @@ use genga_tests::draw_layers;
 use genga_tests::lines::figures::{Sight, contour_style};
 use genga_tests::lines::ink::Ink;
 use genga_tests::lines::outline::outline;
+use genga_tests::lines::show::leave;
 use genga_tests::lines::subjects::ball;
 use genga_tests::scenes::orbit_view;
 use glam::DVec3;
@@ -40,6 +41,9 @@ pub(crate) fn outlines(report: &mut Report) {
                 open += found.open;
                 doubled += found.doubled;
                 let what = format!("ball of {segments} × {rings}, width {width}, camera {i}");
+                if found.off_px > 0.5 || found.open + found.doubled > 0 || found.turn_deg > 5.0 {
+                    leave(&ink, &sight, &format!("ball-{segments}-{width}-{i}"));
+                }
                 report.check(found.off_px <= 0.5 && found.open + found.doubled == 0, || {
                     format!("{what}: {found:?}")
                 });

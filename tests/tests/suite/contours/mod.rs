@@ -1,9 +1,12 @@
 //! Contour lines against their definition: where they are, how wide, how they change.
 
+mod hand;
 mod motion;
+mod parts;
 mod place;
 mod scale;
 mod shape;
+mod widths;
 
 use genga::render::{LayerKind, View};
 use genga::scene::Scene;

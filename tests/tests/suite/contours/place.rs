@@ -39,7 +39,7 @@ fn no_object_is_drawn_over_what_hides_it() {
         let scene = subject(name);
         let views = cameras(&scene, 20, [240, 180]);
         let views = views.iter().skip(1).step_by(8);
-        let figures = views.map(|view| measure_owners(&scene, 4.0, view));
+        let figures = views.map(|view| measure_owners(&scene, 4.0, view, name));
         let all = figures.fold(Figures::default(), Figures::and);
         assert_eq!(all.over, 0, "{name}: {:?}", all.places);
     }

@@ -81,7 +81,6 @@ fn kept(ink: &Ink, expected: &Ink) -> (f64, usize) {
 }
 
 #[test]
-#[ignore = "contour does not draw it so yet"]
 fn thin_bars_keep_their_outline_or_lose_it_whole() {
     let view = ortho_view([128, 128], 2.0);
     let style = contour_style(2.0, 128, "");
