@@ -45,7 +45,13 @@ const NOWHERE: u32 = 4294967295u;
 
 const PIECE_CLOSED: u32 = 1024u;
 
+const PIECE_MEETS_A: u32 = 4096u;
+
+const PIECE_MEETS_B: u32 = 8192u;
+
 const PIECE_SEAM: u32 = 2048u;
+
+const SEAM_GAP: f32 = 1.5;
 
 const SEAM_REACH: f32 = 4.0;
 
@@ -252,10 +258,15 @@ fn screen_curvature(end: u32) -> f32 {
 fn smoothed(end: u32) -> vec2f {
     let p = end_place(end);
     let other = beyond(end);
+    let texel = 1.0 / min(frame.gbuffer_scale, 1.0);
     if (other == NOWHERE) {
-        return p;
+        let meets = select(PIECE_MEETS_B, PIECE_MEETS_A, (end & 1u) == 0u);
+        let is_met = (pieces[end >> 1u].sets & meets) != 0u;
+        let way = p - place_from(end, 3.0 * texel);
+        let unit = way * inverseSqrt(max(dot(way, way), 1e-12));
+        return p + unit * select(0.0, SEAM_GAP * texel, is_met);
     }
-    let reach = SEAM_REACH / min(frame.gbuffer_scale, 1.0);
+    let reach = SEAM_REACH * texel;
     var sum = 2.0 * p;
     for (var i = 1; i <= 3; i++) {
         let away = reach * f32(i) / 3.0;

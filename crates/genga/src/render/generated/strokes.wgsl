@@ -514,10 +514,10 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     let ndc = ((p_px - frame.tile_origin) / frame.tile_size - 0.5) * vec2f(2.0, -2.0);
     var flags = state & ~SETS;
     flags &= PIECE_CLOSED;
-    if (!start.is_closed && start.distance == 0.0 && !start.is_joined) {
+    if (!start.is_closed && start.distance < BEFORE_CUT && !start.is_joined) {
         flags |= PIECE_COVERED_A;
     }
-    if (!end.is_closed && end.distance == 0.0 && !end.is_joined) {
+    if (!end.is_closed && end.distance < BEFORE_CUT && !end.is_joined) {
         flags |= PIECE_COVERED_B;
     }
     return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b));
