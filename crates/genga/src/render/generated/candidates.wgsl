@@ -432,6 +432,11 @@ fn crossing(u: Corner, v: Corner) -> Crossing {
     return Crossing(mix(a.p, b.p, s), mix(a.n, b.n, s), mix(rest_position(a.index), rest_position(b.index), s), mix(a.width, b.width, s), mix(a.curvature, b.curvature, s));
 }
 
+fn depth_across(offset: vec3f, along: vec3f, to_eye: vec3f) -> f32 {
+    let across = offset - along * (dot(offset, along) / max(dot(along, along), 1e-30));
+    return abs(dot(across, to_eye)) * inverseSqrt(max(dot(to_eye, to_eye), 1e-30));
+}
+
 fn depth_at(p_px: vec2f) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let at = clamp(vec2i(floor(p_px - frame.tile_origin)), vec2i(0), size - 1);
@@ -708,6 +713,15 @@ fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
 }
 
+fn stand_off(depth: f32, turn: f32, faces: bool) {
+    var metres = frame.pixel_footprint;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
+        metres /= max(line.depth_a, 1e-30);
+    }
+    line.own_depth = select(depth, 0.0, faces);
+    line.reach = clamp(1.5 + 0.5 * depth * turn / metres, 1.5, 40.0);
+}
+
 fn start_line(order: u32) {
     line = Line();
     line.owner = draws[range.draw].object_id;
@@ -864,20 +878,12 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     let flags = draws[range.draw].flags;
     let side = select(1.0, -1.0, (flags & DRAW_MIRRORED) != 0u);
     let to_eye = facing_vector(frame, middle);
-    let unit_to_eye = to_eye * inverseSqrt(max(dot(to_eye, to_eye), 1e-30));
-    let heights = vec3f(dot(c0.p, unit_to_eye), dot(c1.p, unit_to_eye), dot(c2.p, unit_to_eye));
-    let highest = max(max(heights.x, heights.y), heights.z);
-    let lowest = min(min(heights.x, heights.y), heights.z);
-    let depth = highest - lowest;
+    let faces = side * dot(cross(c1.p - c0.p, c2.p - c0.p), to_eye) > 0.0;
     let turns = vec3f(dot(c0.n, c1.n), dot(c1.n, c2.n), dot(c2.n, c0.n));
     let turn = sqrt(max(2.0 - 2.0 * min(min(turns.x, turns.y), turns.z), 0.0));
-    let faces = side * dot(cross(c1.p - c0.p, c2.p - c0.p), to_eye) > 0.0;
-    line.own_depth = select(depth, 0.0, faces);
-    var metres = frame.pixel_footprint;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
-        metres /= max(line.depth_a, 1e-30);
-    }
-    line.reach = clamp(1.5 + 0.5 * depth * turn / metres, 1.5, 40.0);
+    let along = b.p - a.p;
+    let depth = max(max(depth_across(c0.p - a.p, along, to_eye), depth_across(c1.p - a.p, along, to_eye)), depth_across(c2.p - a.p, along, to_eye));
+    stand_off(depth, turn, faces);
     walk(0u);
 }
 
@@ -1006,6 +1012,13 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
         line.outward = vec2f(0.0);
         line.reach = 1.5;
+        line.own_depth = 0.0;
+        let is_end_of_smooth = ((edge.left ^ edge.right) & EDGE_FLAT) != 0u && !is_border;
+        if (is_silhouette && is_end_of_smooth && all_known == 0u) {
+            let smooth_third = select(third, right_third, (edge.left & EDGE_FLAT) != 0u);
+            let depth = depth_across(smooth_third - c0.p, c1.p - c0.p, facing_vector(frame, c0.p));
+            stand_off(depth, 0.4, false);
+        }
         if (is_silhouette) {
             let inner = select(right_third, third, left_faces || is_border);
             line.outward = outward_from(inner, false);
