@@ -14,7 +14,9 @@ pub(crate) struct Layouts {
     pub(crate) dynamic: wgpu::BindGroupLayout,
     /// World vertices, edges, indices, rest vertices, range.
     pub(crate) stroke_source: wgpu::BindGroupLayout,
-    /// Group 0 of `candidates` and `seams`, see `shaders/lib/line.wesl`.
+    /// Group 0 of `candidates`: frame, draws, lines, counters.
+    pub(crate) candidates: wgpu::BindGroupLayout,
+    /// Group 0 of `walk` and `seams`, see `shaders/lib/line.wesl`.
     pub(crate) lines: wgpu::BindGroupLayout,
     /// Group 0 of `strokes`: frame, depth, ids, curves.
     pub(crate) strokes: wgpu::BindGroupLayout,
@@ -80,6 +82,12 @@ impl Layouts {
                     (4, B::DynamicUniform),
                 ],
             ),
+            candidates: layout(
+                device,
+                "candidates",
+                S::COMPUTE,
+                &[(0, B::Uniform), (1, B::Storage), (2, B::StorageWrite), (3, B::StorageWrite)],
+            ),
             lines: layout(
                 device,
                 "lines",
@@ -95,6 +103,7 @@ impl Layouts {
                     (7, B::Float),
                     (8, B::Float),
                     (9, B::StorageWrite),
+                    (10, B::Storage),
                 ],
             ),
             strokes: layout(

@@ -9,7 +9,7 @@ use super::{
     gpu::{scope, timing::Timer},
     layouts::Layouts,
     passes::{
-        candidates::{CandidatePass, lines_group},
+        candidates::CandidatePass,
         composite::CompositePass,
         deform::DeformPass,
         depth::DepthPass,
@@ -21,6 +21,7 @@ use super::{
         reference::ReferencePass,
         seams::SeamPass,
         strokes::StrokePass,
+        walk::{WalkPass, lines_group},
     },
     picture::MAX_PICTURE_SIDE,
     prepare::{Prepared, lights::lights_in_view},
@@ -40,6 +41,7 @@ pub struct Renderer {
     detect: DetectPass,
     depth: DepthPass,
     candidates: CandidatePass,
+    walk: WalkPass,
     seams: SeamPass,
     link: LinkPass,
     sizes: SizePass,
@@ -102,6 +104,7 @@ impl Renderer {
                 detect: DetectPass::new(device),
                 depth: DepthPass::new(device),
                 candidates: CandidatePass::new(device, &layouts),
+                walk: WalkPass::new(device, &layouts),
                 seams: SeamPass::new(device, &layouts),
                 link: LinkPass::new(device),
                 sizes: SizePass::new(device),
@@ -240,8 +243,9 @@ impl Renderer {
         if let Some(depth) = &targets.picture_depth {
             self.depth.run(device, encoder, &prepared.frame, targets, depth, timer);
         }
+        self.candidates.run(device, encoder, &self.layouts, prepared, timer);
         let lines = lines_group(device, &self.layouts, prepared, targets);
-        self.candidates.run(encoder, prepared, &lines, targets, timer);
+        self.walk.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
         self.seams.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
         self.link.run(device, encoder, &self.sizes, prepared, targets, timer);
         self.strokes.run(device, encoder, &self.layouts, prepared, targets, timer);

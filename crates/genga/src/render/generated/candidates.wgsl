@@ -7,28 +7,10 @@ var<uniform> frame: Frame;
 var<storage, read> draws: array<Draw>;
 
 @group(0) @binding(2)
-var<storage, read_write> pieces: array<Piece>;
+var<storage, read_write> lines: array<Line>;
 
 @group(0) @binding(3)
 var<storage, read_write> counters: array<atomic<u32>>;
-
-@group(0) @binding(4)
-var<uniform> lights: array<Light, 16>;
-
-@group(0) @binding(5)
-var depths: texture_2d<f32>;
-
-@group(0) @binding(6)
-var ids: texture_2d<u32>;
-
-@group(0) @binding(7)
-var normals: texture_2d<f32>;
-
-@group(0) @binding(8)
-var base_colors: texture_2d<f32>;
-
-@group(0) @binding(9)
-var<storage, read_write> marks: array<atomic<u32>>;
 
 @group(1) @binding(0)
 var<storage, read> world: array<WorldVertex>;
@@ -45,9 +27,7 @@ var<storage, read> rest: array<RestVertex>;
 @group(1) @binding(4)
 var<uniform> range: StrokeRange;
 
-const CLEARLY_COVERED: f32 = 12.0;
-
-const COUNT_PIECES: u32 = 0u;
+const COUNT_LINES: u32 = 2u;
 
 const CREASE_GROWTH: f32 = 0.15;
 
@@ -69,31 +49,13 @@ const EDGE_USER: u32 = 1073741824u;
 
 const EDGE_UV_SEAM: u32 = 2147483648u;
 
-const FRAME_LINE_COLORS: u32 = 128u;
-
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
-
-const FRAME_SMALL_DETECTION: u32 = 512u;
-
-const ID_OBJECT: u32 = 16777215u;
-
-const ID_SETS_SHIFT: u32 = 24u;
-
-const ID_THROUGH_SHIFT: u32 = 28u;
-
-const IN_FRONT: f32 = 2.0;
-
-const LIGHT_DIRECTIONAL: u32 = 0u;
-
-const LIGHT_SPOT: u32 = 2u;
 
 const LINE_BORDER: u32 = 16u;
 
 const LINE_CREASE: u32 = 2u;
 
 const LINE_MATERIAL: u32 = 8u;
-
-const LINE_OBJECT: u32 = 4u;
 
 const LINE_SILHOUETTE: u32 = 1u;
 
@@ -103,17 +65,9 @@ const LINE_UV_SEAM: u32 = 64u;
 
 const MAX_LOOKUPS: f32 = 24000.0;
 
-const PIECE_COVERED_A: u32 = 256u;
-
-const PIECE_COVERED_B: u32 = 512u;
-
-const PIECE_LOOKUPS: u32 = 8u;
-
-const SET_HIDDEN: u32 = 1u;
-
-const SLACK: f32 = 0.3;
-
 const STEP: f32 = 2.0;
+
+const STRETCH: u32 = 32u;
 
 struct Corner {
     p: vec3f,
@@ -165,10 +119,13 @@ struct Edge {
     right: u32
 }
 
-struct Found {
-    sets: u32,
+struct End {
+    p: vec3f,
+    n: vec3f,
+    rest: vec3f,
     width: f32,
-    covered: f32
+    curvature: f32,
+    key: vec2u
 }
 
 struct Frame {
@@ -201,38 +158,59 @@ struct Frame {
     detect: Detect
 }
 
-struct Light {
-    position: vec4f,
-    direction: vec4f,
-    factors: vec4f,
-    kind: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+struct Kind {
+    order: u32,
+    types: u32,
+    known: u32,
+    crease: f32,
+    inner: vec3f,
+    own_depth: f32,
+    own_width: f32
 }
 
 struct Line {
+    ax: f32,
+    ay: f32,
+    az: f32,
+    bx: f32,
+    by: f32,
+    bz: f32,
+    inner_x: f32,
+    inner_y: f32,
+    inner_z: f32,
+    rest_ax: f32,
+    rest_ay: f32,
+    rest_az: f32,
+    rest_bx: f32,
+    rest_by: f32,
+    rest_bz: f32,
+    normal_a: u32,
+    normal_b: u32,
+    widths: u32,
+    curvatures: u32,
+    key_a0: u32,
+    key_a1: u32,
+    key_b0: u32,
+    key_b1: u32,
+    order: u32,
+    draw: u32,
+    types: u32,
+    crease: f32,
+    own_depth: f32,
+    own_width: f32,
+    first: u32,
+    end: u32,
+    lookups: u32
+}
+
+struct LineEnds {
     a: vec2f,
     b: vec2f,
     depth_a: f32,
     depth_b: f32,
-    outward: vec2f,
-    reach: f32,
-    own_depth: f32,
-    types: u32,
-    known: u32,
-    crease: f32,
-    owner: u32,
-    material: u32,
-    look_width: f32,
-    widths: vec2f,
-    curvatures: vec2f,
-    lights: vec2f,
-    rest_a: vec3f,
-    rest_b: vec3f,
-    key_a: vec2u,
-    key_b: vec2u,
-    order: u32
+    cut_a: bool,
+    cut_b: bool,
+    is_behind: bool
 }
 
 struct LineSet {
@@ -249,33 +227,6 @@ struct LineSet {
     wobble_length: f32,
     wobble_seed: u32,
     depth_from: f32,
-    reserved: u32
-}
-
-struct Piece {
-    a: vec2f,
-    b: vec2f,
-    depth_a: f32,
-    depth_b: f32,
-    widths: u32,
-    curvatures: u32,
-    rest_ax: f32,
-    rest_ay: f32,
-    rest_az: f32,
-    rest_bx: f32,
-    rest_by: f32,
-    rest_bz: f32,
-    base_a: u32,
-    base_b: u32,
-    key_a0: u32,
-    key_a1: u32,
-    key_b0: u32,
-    key_b1: u32,
-    sets: u32,
-    owner: u32,
-    order: u32,
-    link_a: u32,
-    link_b: u32,
     reserved: u32
 }
 
@@ -312,65 +263,6 @@ struct WorldVertex {
     line: u32
 }
 
-fn append(t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32, before: u32) -> u32 {
-    let slot = atomicAdd(&counters[COUNT_PIECES], 1u);
-    if (slot >= arrayLength(&pieces)) {
-        return 0u;
-    }
-    let s0 = in_space(t0);
-    let s1 = in_space(t1);
-    let rest_0 = mix(line.rest_a, line.rest_b, s0);
-    let rest_1 = mix(line.rest_a, line.rest_b, s1);
-    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(width_0 * mix(line.widths.x, line.widths.y, s0), width_1 * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), select(0u, line.key_a.x, t0 <= 0.0), select(0u, line.key_a.y, t0 <= 0.0), select(0u, line.key_b.x, t1 >= 1.0), select(0u, line.key_b.y, t1 >= 1.0), sets, line.owner, line.order, before, 0u, 0u);
-    if (before != 0u) {
-        pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
-    }
-    return 2u * slot + 2u;
-}
-
-fn base_at(t: f32, light: f32) -> u32 {
-    if ((frame.flags & FRAME_LINE_COLORS) == 0u) {
-        return 0u;
-    }
-    let p_px = mix(line.a, line.b, t) - line.outward;
-    let size = vec2i(textureDimensions(ids));
-    var texel = texel_of(p_px);
-    let corner = texel - 1;
-    for (var i = 0; i < 9; i++) {
-        let at = clamp(corner + vec2i(i % 3, i / 3), vec2i(0), size - 1);
-        if ((textureLoad(ids, texel, 0).x & ID_OBJECT) == (line.owner & ID_OBJECT)) {
-            break;
-        }
-        texel = at;
-    }
-    return pack4x8unorm(vec4f(textureLoad(base_colors, texel, 0).rgb, light));
-}
-
-fn behind_in_pixels(frame: Frame, line_depth: f32, depth: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        let surface = mix(frame.depth_range.y, frame.depth_range.x, depth);
-        return (line_depth - surface) / frame.pixel_footprint;
-    }
-    let line_distance = 1.0 / line_depth;
-    let surface_inverse = depth / frame.depth_range.x;
-    return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
-}
-
-fn change_between(from_t: f32, to_t: f32, from_sets: u32, to_sets: u32) -> f32 {
-    var low = from_t;
-    var high = to_t;
-    for (var i = 0; i < 3; i++) {
-        let middle = 0.5 * (low + high);
-        if (look_up(middle).sets == to_sets) {
-            high = middle;
-        }
-        else {
-            low = middle;
-        }
-    }
-    return 0.5 * (low + high);
-}
-
 fn corner_at(index: u32) -> Corner {
     let vertex = world[range.world_first + index];
     let p = vec3f(vertex.x, vertex.y, vertex.z);
@@ -381,43 +273,6 @@ fn corner_at(index: u32) -> Corner {
 
 fn corner_index(half: u32) -> u32 {
     return indices[range.index_first + half];
-}
-
-fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
-    let size = vec2i(textureDimensions(depths));
-    let local = p_px - frame.tile_origin - depth_place();
-    let corner = vec2i(floor(local));
-    let part = local - vec2f(corner);
-    var least = 1e30;
-    var is_level = false;
-    let nearest = vec2i(select(vec2f(0.0), vec2f(1.0), part > vec2f(0.5)));
-    for (var i = 0; i < 4; i++) {
-        let pick = (vec2i(i & 1, i >> 1) + nearest) & vec2i(1);
-        let at = clamp(corner + pick, vec2i(0), size - 1);
-        least = min(least, behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x));
-        if (least < -IN_FRONT) {
-            return 0.0;
-        }
-        if (least < slack) {
-            is_level = true;
-        }
-    }
-    if (is_level) {
-        return select(1.0, 0.0, is_own_near(p_px));
-    }
-    for (var i = 0; i < 4; i++) {
-        let pick = vec2i(i & 1, i >> 1);
-        let at = clamp(corner + pick, vec2i(0), size - 1);
-        let away = clamp(at + 2 * pick - 1, vec2i(0), size - 1);
-        let depth = textureLoad(depths, at, 0).x;
-        let offset = abs(vec2f(pick) - part);
-        let gone = depth + (depth - textureLoad(depths, vec2i(away.x, at.y), 0).x) * offset.x + (depth - textureLoad(depths, vec2i(at.x, away.y), 0).x) * offset.y;
-        least = min(least, behind_in_pixels(frame, line_depth, gone));
-    }
-    if (least < slack) {
-        return select(1.0, 0.0, is_own_near(p_px));
-    }
-    return least;
 }
 
 fn crossing(u: Corner, v: Corner) -> Crossing {
@@ -437,27 +292,15 @@ fn depth_across(offset: vec3f, along: vec3f, to_eye: vec3f) -> f32 {
     return abs(dot(across, to_eye)) * inverseSqrt(max(dot(to_eye, to_eye), 1e-30));
 }
 
-fn depth_at(p_px: vec2f) -> f32 {
-    let size = vec2i(textureDimensions(depths));
-    let at = clamp(vec2i(floor(p_px - frame.tile_origin)), vec2i(0), size - 1);
-    return textureLoad(depths, at, 0).x;
-}
-
-fn depth_place() -> vec2f {
-    if ((frame.flags & FRAME_SMALL_DETECTION) == 0u) {
-        return vec2f(0.5);
-    }
-    if (frame.paint_scale < 1.5) {
-        return vec2f(0.375, 0.125);
-    }
-    return vec2f((floor(0.5 * frame.paint_scale) + 0.5) / frame.paint_scale);
-}
-
 fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return mix(frame.depth_range.y, frame.depth_range.x, depth);
     }
     return frame.depth_range.x / max(depth, 1e-30);
+}
+
+fn end_of_edge(c0: Corner, c1: Corner, rest_0: vec3f, rest_1: vec3f, s: f32, key: vec2u) -> End {
+    return End(mix(c0.p, c1.p, s), mix(c0.n, c1.n, s), mix(rest_0, rest_1, s), mix(c0.width, c1.width, s), mix(c0.curvature, c1.curvature, s), key);
 }
 
 fn facing_vector(frame: Frame, p_in_world: vec3f) -> vec3f {
@@ -468,27 +311,6 @@ fn following(half: u32) -> u32 {
     return select(half + 1u, half - 2u, half % 3u == 2u);
 }
 
-fn in_space(t: f32) -> f32 {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return t;
-    }
-    return t * line.depth_b / max(mix(line.depth_a, line.depth_b, t), 1e-30);
-}
-
-fn is_own_near(p_px: vec2f) -> bool {
-    let size = vec2i(textureDimensions(ids));
-    let middle = texel_of(p_px);
-    for (var i = 0; i < 9; i++) {
-        let pick = (i + 4) % 9;
-        let at = clamp(middle + vec2i(pick % 3 - 1, pick / 3 - 1), vec2i(0), size - 1);
-        let found = textureLoad(ids, at, 0).xy;
-        if (((found.x ^ line.owner) & ID_OBJECT) == 0u && (found.y & 65535u) == line.material) {
-            return true;
-        }
-    }
-    return false;
-}
-
 fn key_of(p: vec3f) -> vec2u {
     let bits = bitcast<vec3u>(p + vec3f(0.0));
     let first = mixed(mixed(mixed(2654435769u, bits.x), bits.y), bits.z);
@@ -496,131 +318,48 @@ fn key_of(p: vec3f) -> vec2u {
     return vec2u(first | 1u, second);
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
-    let factors = light.factors;
-    let direction = light.direction.xyz;
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return factors.x * dot(normal, direction);
-    }
-    let offset = light.position.xyz - p_in_world;
-    let distance_squared = max(dot(offset, offset), 1e-12);
-    let to_light = offset * inverseSqrt(distance_squared);
-    var falloff = 1.0;
-    if (factors.y > 0.0) {
-        let ratio = distance_squared / (factors.y * factors.y);
-        falloff = saturate(1.0 - ratio * ratio);
-    }
-    if (light.kind == LIGHT_SPOT) {
-        let cosine = dot(-to_light, direction);
-        falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
-    }
-    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
-}
-
-fn line_depth(clip: vec4f) -> f32 {
+fn line_depth(frame: Frame, clip: vec4f) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return distance_from_depth(frame, clip.z);
     }
-    return 1.0 / clip.w;
+    return 1.0 / max(clip.w, 1e-30);
 }
 
-fn lit(p: vec3f, normal: vec3f) -> f32 {
-    var sum = 0.0;
-    let unit = normalize(normal + vec3f(0.0, 0.0, 1e-20));
-    for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(lights[i], p, unit);
+fn line_ends(frame: Frame, p_a: vec3f, p_b: vec3f) -> LineEnds {
+    var clip_a = frame.clip_from_world * vec4f(p_a, 1.0);
+    var clip_b = frame.clip_from_world * vec4f(p_b, 1.0);
+    let near = select(frame.depth_range.x, 0.0, (frame.flags & FRAME_ORTHOGRAPHIC) != 0u);
+    let cut_a = clip_a.w < near;
+    let cut_b = clip_b.w < near;
+    if (cut_a && !cut_b) {
+        clip_a = mix(clip_a, clip_b, (near - clip_a.w) / (clip_b.w - clip_a.w));
     }
-    return saturate(0.5 + 0.5 * clamp(sum, -1.0, 1.0));
+    else if (cut_b && !cut_a) {
+        clip_b = mix(clip_b, clip_a, (near - clip_b.w) / (clip_a.w - clip_b.w));
+    }
+    return LineEnds(picture_from_clip(frame, clip_a), picture_from_clip(frame, clip_b), line_depth(frame, clip_a), line_depth(frame, clip_b), cut_a, cut_b, cut_a && cut_b);
 }
 
-fn look_up(t: f32) -> Found {
-    let nothing = Found(0u, 0.0, 0.0);
-    let p_px = mix(line.a, line.b, t);
-    if (any(p_px < vec2f(0.0)) || any(p_px > frame.picture_size)) {
-        return nothing;
+fn list_line(a: End, b: End, kind: Kind) {
+    let ends = line_ends(frame, a.p, b.p);
+    if (ends.is_behind) {
+        return;
     }
-    let line_depth = mix(line.depth_a, line.depth_b, t);
-    var metres = frame.pixel_footprint;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
-        metres /= max(line_depth, 1e-30);
+    let along = ends.b - ends.a;
+    let inside = part_in_tile(ends.a, along);
+    if (inside.x >= inside.y) {
+        return;
     }
-    let covered = covered_by(p_px, line_depth, SLACK + line.own_depth / metres);
-    var types = line.known;
-    var strength = select(0.0, 1.0, (types & ~LINE_CREASE) != 0u);
-    if ((types & LINE_CREASE) != 0u) {
-        strength = max(strength, line.crease);
+    let lookups = u32(clamp(ceil(length(along) / STEP), 1.0, MAX_LOOKUPS));
+    let first = u32(floor(inside.x * f32(lookups))) / STRETCH;
+    let end = (min(u32(ceil(inside.y * f32(lookups))), lookups) + STRETCH - 1u) / STRETCH;
+    let count = end - first;
+    if (count == 0u) {
+        return;
     }
-    var through = 0u;
-    if (covered > 0.0) {
-        types |= line.types & LINE_SILHOUETTE;
-        strength = 1.0;
-        through = textureLoad(ids, texel_of(p_px), 0).x >> ID_THROUGH_SHIFT;
-    }
-    else if ((line.types & LINE_SILHOUETTE) != 0u) {
-        let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
-        let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
-        if (threshold > 0.0 && step > threshold) {
-            types |= LINE_SILHOUETTE;
-            strength = max(strength, min(step / threshold - 1.0, 1.0));
-        }
-        let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
-        let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
-        var identities = 0u;
-        if ((beyond.x & ID_OBJECT) != (line.owner & ID_OBJECT)) {
-            identities |= LINE_OBJECT;
-        }
-        if ((beyond.y & 65535u) != line.material) {
-            identities |= LINE_MATERIAL;
-        }
-        identities &= frame.detect.sources;
-        if (identities != 0u) {
-            types |= identities;
-            strength = 1.0;
-        }
-    }
-    let own_sets = line.owner >> ID_SETS_SHIFT;
-    var sets = 0u;
-    for (var i = 0u; i < frame.line_set_count; i++) {
-        let is_hidden_set = (frame.line_sets[i].flags & SET_HIDDEN) != 0u;
-        let is_covered = covered > 0.0 && ((through >> i) & 1u) == 0u;
-        if ((frame.line_sets[i].types & types) != 0u && is_hidden_set == is_covered) {
-            sets |= 1u << i;
-        }
-    }
-    sets &= own_sets & 15u;
-    if (sets == 0u) {
-        return Found(0u, 0.0, covered);
-    }
-    let width = strength * look_width(p_px, covered > 0.0);
-    return Found(select(0u, sets, width > 0.0), width, covered);
-}
-
-fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
-    if (line.look_width >= 0.0) {
-        return line.look_width;
-    }
-    let size = vec2i(textureDimensions(ids));
-    let corner = vec2i(round((p_px - frame.tile_origin) * frame.gbuffer_scale)) - 1;
-    var width = 0.0;
-    var seen = false;
-    for (var i = 0; i < 4; i++) {
-        let at = clamp(corner + vec2i(i & 1, i >> 1), vec2i(0), size - 1);
-        if ((textureLoad(ids, at, 0).x & ID_OBJECT) == (line.owner & ID_OBJECT)) {
-            width = max(width, textureLoad(normals, at, 0).a);
-            seen = true;
-        }
-    }
-    return select(select(1.0, 0.0, !is_covered), width, seen);
-}
-
-fn mark(p_px: vec2f) {
-    let size = vec2i(textureDimensions(ids));
-    let middle = texel_of(p_px);
-    for (var y = max(middle.y - 1, 0); y <= min(middle.y + 1, size.y - 1); y++) {
-        for (var x = max(middle.x - 1, 0); x <= min(middle.x + 1, size.x - 1); x++) {
-            let index = u32(y * size.x + x);
-            atomicOr(&marks[index >> 5u], 1u << (index & 31u));
-        }
+    let slot = atomicAdd(&counters[COUNT_LINES], count);
+    for (var i = 0u; i < count && slot + i < arrayLength(&lines); i++) {
+        lines[slot + i] = Line(a.p.x, a.p.y, a.p.z, b.p.x, b.p.y, b.p.z, kind.inner.x, kind.inner.y, kind.inner.z, a.rest.x, a.rest.y, a.rest.z, b.rest.x, b.rest.y, b.rest.z, octahedral_pack(a.n), octahedral_pack(b.n), pack2x16float(vec2f(a.width, b.width)), pack2x16float(vec2f(a.curvature, b.curvature)), a.key.x, a.key.y, b.key.x, b.key.y, kind.order, range.draw, kind.types | (kind.known << 8u), kind.crease, kind.own_depth, kind.own_width, (first + i) * STRETCH, min((first + i + 1u) * STRETCH, lookups), lookups);
     }
 }
 
@@ -628,6 +367,15 @@ fn mixed(a: u32, b: u32) -> u32 {
     var h = (a ^ (a >> 16u)) * 2146121005u + b;
     h = (h ^ (h >> 15u)) * 2221713035u;
     return h ^ (h >> 16u);
+}
+
+fn octahedral_pack(n: vec3f) -> u32 {
+    let sum = max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
+    var p = n.xy / sum;
+    if (n.z < 0.0) {
+        p = (1.0 - abs(p.yx)) * sign_not_zero(p);
+    }
+    return pack2x16snorm(p);
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -639,37 +387,20 @@ fn octahedral_unpack(bits: u32) -> vec3f {
     return normalize(n);
 }
 
-fn outward_from(inner: vec3f, mirror: bool) -> vec2f {
-    let along = line.b - line.a;
-    let side = normalize(vec2f(-along.y, along.x) + vec2f(0.0, 1e-20));
-    let clip = frame.clip_from_world * vec4f(inner, 1.0);
-    let toward = picture_from_clip(frame, clip) - line.a;
-    let sign = dot(toward, side) * select(1.0, -1.0, clip.w < 0.0);
-    return select(side, -side, sign > 0.0);
-}
-
-fn part_in_tile() -> vec2f {
+fn part_in_tile(a: vec2f, along: vec2f) -> vec2f {
     var radius = 0.0;
     for (var i = 0u; i < frame.line_set_count; i++) {
         radius = max(radius, frame.line_sets[i].radius);
     }
-    let along = line.b - line.a;
     let margin = vec2f(radius * frame.detect.max_width_factor + 2.0);
-    let low = frame.tile_origin - margin - line.a;
-    let high = frame.tile_origin + frame.tile_size + margin - line.a;
-    var inside = vec2f(0.0, 1.0);
-    for (var axis = 0; axis < 2; axis++) {
-        if (abs(along[axis]) < 1e-6) {
-            if (low[axis] > 0.0 || high[axis] < 0.0) {
-                return vec2f(1.0, 0.0);
-            }
-        }
-        else {
-            let t = vec2f(low[axis], high[axis]) / along[axis];
-            inside = vec2f(max(inside.x, min(t.x, t.y)), min(inside.y, max(t.x, t.y)));
-        }
-    }
-    return inside;
+    let low = frame.tile_origin - margin - a;
+    let high = frame.tile_origin + frame.tile_size + margin - a;
+    let flat = select(along, vec2f(1e-6), abs(along) < vec2f(1e-6));
+    let t_low = low / flat;
+    let t_high = high / flat;
+    let enter = min(t_low, t_high);
+    let leave = max(t_low, t_high);
+    return vec2f(max(0.0, max(enter.x, enter.y)), min(1.0, min(leave.x, leave.y)));
 }
 
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
@@ -682,28 +413,6 @@ fn place(index: u32) -> vec3f {
     return vec3f(vertex.x, vertex.y, vertex.z);
 }
 
-fn project_ends(p0: vec3f, p1: vec3f) -> bool {
-    var clip_a = frame.clip_from_world * vec4f(p0, 1.0);
-    var clip_b = frame.clip_from_world * vec4f(p1, 1.0);
-    let near = select(frame.depth_range.x, 0.0, (frame.flags & FRAME_ORTHOGRAPHIC) != 0u);
-    if (clip_a.w < near && clip_b.w < near) {
-        return false;
-    }
-    if (clip_a.w < near) {
-        clip_a = mix(clip_a, clip_b, (near - clip_a.w) / (clip_b.w - clip_a.w));
-        line.key_a = vec2u(0u);
-    }
-    else if (clip_b.w < near) {
-        clip_b = mix(clip_b, clip_a, (near - clip_b.w) / (clip_a.w - clip_b.w));
-        line.key_b = vec2u(0u);
-    }
-    line.a = picture_from_clip(frame, clip_a);
-    line.b = picture_from_clip(frame, clip_b);
-    line.depth_a = line_depth(clip_a);
-    line.depth_b = line_depth(clip_b);
-    return true;
-}
-
 fn rest_position(index: u32) -> vec3f {
     let vertex = rest[range.rest_first + index];
     return vec3f(vertex.x, vertex.y, vertex.z);
@@ -711,117 +420,6 @@ fn rest_position(index: u32) -> vec3f {
 
 fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn stand_off(depth: f32, turn: f32, faces: bool) {
-    var metres = frame.pixel_footprint;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
-        metres /= max(line.depth_a, 1e-30);
-    }
-    line.own_depth = select(depth, 0.0, faces);
-    line.reach = clamp(1.5 + 0.5 * depth * turn / metres, 1.5, 40.0);
-}
-
-fn start_line(order: u32) {
-    line = Line();
-    line.owner = draws[range.draw].object_id;
-    line.material = draws[range.draw].material_id;
-    line.look_width = draws[range.draw].line_width;
-    line.order = order;
-}
-
-fn step_beyond(p_px: vec2f, line_depth: f32) -> f32 {
-    var largest = 0.0;
-    for (var away = 1.5; away < 64.0; away *= 2.0) {
-        let near = depth_at(p_px + away * line.outward);
-        if (near <= 0.0) {
-            return 1000000000.0;
-        }
-        let far = depth_at(p_px + (away + 1.5) * line.outward);
-        let gone = near + (near - far) * (away / 1.5);
-        let step = -max(behind_in_pixels(frame, line_depth, near), behind_in_pixels(frame, line_depth, gone));
-        largest = max(largest, step);
-        if (away >= line.reach) {
-            break;
-        }
-    }
-    return largest;
-}
-
-fn texel_of(p_px: vec2f) -> vec2i {
-    let size = vec2i(textureDimensions(ids));
-    let at = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    return clamp(at, vec2i(0), size - 1);
-}
-
-fn walk(before: u32) -> u32 {
-    let lookups = u32(clamp(ceil(length(line.b - line.a) / STEP), 1.0, MAX_LOOKUPS));
-    let inside = part_in_tile();
-    if (inside.x >= inside.y) {
-        return 0u;
-    }
-    let first = u32(floor(inside.x * f32(lookups)));
-    let end = min(u32(ceil(inside.y * f32(lookups))), lookups);
-    if (first >= end) {
-        return 0u;
-    }
-    var last = select(0u, before, first == 0u);
-    var start = f32(first) / f32(lookups);
-    var state = Found(0u, 0.0, 0.0);
-    var started_covered = 0.0;
-    var width_sum = 0.0;
-    var width_count = 0.0;
-    var last_width = -1.0;
-    for (var i = first; i <= end; i++) {
-        var found = state;
-        var cut = 1.0;
-        var is_over = i == end;
-        if (is_over) {
-            cut = f32(end) / f32(lookups);
-        }
-        else {
-            let t = (f32(i) + 0.5) / f32(lookups);
-            found = look_up(t);
-            if (found.sets != 0u && found.covered == 0.0) {
-                mark(mix(line.a, line.b, t));
-            }
-            if (i == first) {
-                state = found;
-                started_covered = found.covered;
-            }
-            cut = f32(i) / f32(lookups);
-            if (found.sets != state.sets) {
-                cut = change_between(t - 1.0 / f32(lookups), t, state.sets, found.sets);
-            }
-        }
-        let changes = found.sets != state.sets;
-        let is_long = state.sets != 0u && i > first && (i - first) % PIECE_LOOKUPS == 0u;
-        if (changes || is_over || is_long) {
-            let width = select(max(last_width, 0.0), width_sum / max(width_count, 1.0), width_count > 0.0);
-            let width_0 = select(last_width, width, last_width < 0.0);
-            if (cut > start) {
-                var flags = 0u;
-                if (started_covered > CLEARLY_COVERED) {
-                    flags |= PIECE_COVERED_A;
-                }
-                if (state.covered > CLEARLY_COVERED) {
-                    flags |= PIECE_COVERED_B;
-                }
-                last = append(start, cut, width_0, width, state.sets | flags, last);
-            }
-            start = cut;
-            started_covered = found.covered;
-            last_width = select(width, -1.0, changes && (state.sets == 0u || found.sets == 0u));
-            width_sum = 0.0;
-            width_count = 0.0;
-        }
-        state = found;
-        if (found.width > 0.0) {
-            width_sum += found.width;
-            width_count += 1.0;
-        }
-    }
-    return last;
 }
 
 @compute @workgroup_size(64)
@@ -858,23 +456,11 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     }
     let a = crossing(lone, next);
     let b = crossing(lone, other);
-    start_line(range.order_first + number);
-    line.key_a = key_of(a.p);
-    line.key_b = key_of(b.p);
-    line.types = LINE_SILHOUETTE;
-    line.widths = vec2f(a.width, b.width);
-    line.curvatures = vec2f(a.curvature, b.curvature);
-    line.rest_a = a.rest;
-    line.rest_b = b.rest;
-    if (frame.light_count > 0u) {
-        line.lights = vec2f(lit(a.p, a.n), lit(b.p, b.n));
-    }
-    if (!project_ends(a.p, b.p)) {
-        return;
-    }
+    var kind = Kind();
+    kind.order = mixed(range.order_first + number, 3u);
+    kind.types = LINE_SILHOUETTE;
     let middle = 0.5 * (a.p + b.p);
-    let toward = middle - (a.n + b.n) * (0.05 * length(c1.p - c0.p) + 1e-12);
-    line.outward = outward_from(toward, false);
+    kind.inner = middle - (a.n + b.n) * (0.05 * length(c1.p - c0.p) + 1e-12);
     let flags = draws[range.draw].flags;
     let side = select(1.0, -1.0, (flags & DRAW_MIRRORED) != 0u);
     let to_eye = facing_vector(frame, middle);
@@ -883,8 +469,9 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     let turn = sqrt(max(2.0 - 2.0 * min(min(turns.x, turns.y), turns.z), 0.0));
     let along = b.p - a.p;
     let depth = max(max(depth_across(c0.p - a.p, along, to_eye), depth_across(c1.p - a.p, along, to_eye)), depth_across(c2.p - a.p, along, to_eye));
-    stand_off(depth, turn, faces);
-    walk(0u);
+    kind.own_depth = select(depth, 0.0, faces);
+    kind.own_width = 0.5 * depth * turn;
+    list_line(End(a.p, a.n, a.rest, a.width, a.curvature, key_of(a.p)), End(b.p, b.n, b.rest, b.width, b.curvature, key_of(b.p)), kind);
 }
 
 @compute @workgroup_size(64)
@@ -916,7 +503,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     if ((edge.right & EDGE_UV_SEAM) != 0u && right != EDGE_NONE) {
         known |= LINE_UV_SEAM;
     }
-    start_line(range.order_first + number);
+    var crease = 0.0;
     var facing_left = vec2f(c0.facing, c1.facing);
     if ((edge.left & EDGE_FLAT) != 0u) {
         facing_left = vec2f(dot(left_normal, facing_vector(frame, c0.p)));
@@ -943,7 +530,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             let cosine = dot(left_normal, right_normal) / max(lengths, 1e-37);
             if (cosine < frame.detect.crease_cos && lengths > 0.0) {
                 known |= LINE_CREASE;
-                line.crease = saturate((frame.detect.crease_cos - cosine) / CREASE_GROWTH);
+                crease = saturate((frame.detect.crease_cos - cosine) / CREASE_GROWTH);
             }
         }
     }
@@ -973,58 +560,30 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     }
     let rest_0 = rest_position(i0);
     let rest_1 = rest_position(i1);
-    var light = vec2f(0.0);
-    if (frame.light_count > 0u) {
-        light = vec2f(lit(c0.p, c0.n), lit(c1.p, c1.n));
-    }
-    let all_known = known;
-    var before = 0u;
-    for (var i = 0; i < 3; i++) {
+    for (var i = 0; i < 3 && cuts[i] < 1.0; i++) {
         let s0 = cuts[i];
         let s1 = cuts[i + 1];
-        if (s1 - s0 < 1e-6) {
-            continue;
-        }
         let middle = 0.5 * (s0 + s1);
         let left_faces = mix(facing_left.x, facing_left.y, middle) > 0.0;
         let right_faces = mix(facing_right.x, facing_right.y, middle) > 0.0;
         let is_border = right == EDGE_NONE;
         let is_silhouette = is_hard && (left_faces != right_faces || is_border);
         let is_seen = two_sided || left_faces || (right_faces && !is_border);
-        if (!is_seen || (all_known == 0u && !is_silhouette)) {
-            before = 0u;
+        if (s1 - s0 < 1e-6 || !is_seen || (known == 0u && !is_silhouette)) {
             continue;
         }
-        line.known = all_known;
-        line.types = all_known | select(0u, LINE_SILHOUETTE, is_silhouette);
-        let p0 = mix(c0.p, c1.p, s0);
-        let p1 = mix(c0.p, c1.p, s1);
-        line.key_a = keys[i];
-        line.key_b = keys[i + 1];
-        line.widths = vec2f(mix(c0.width, c1.width, s0), mix(c0.width, c1.width, s1));
-        line.curvatures = vec2f(mix(c0.curvature, c1.curvature, s0), mix(c0.curvature, c1.curvature, s1));
-        line.lights = vec2f(mix(light.x, light.y, s0), mix(light.x, light.y, s1));
-        line.rest_a = mix(rest_0, rest_1, s0);
-        line.rest_b = mix(rest_0, rest_1, s1);
-        if (!project_ends(p0, p1)) {
-            before = 0u;
-            continue;
-        }
-        line.outward = vec2f(0.0);
-        line.reach = 1.5;
-        line.own_depth = 0.0;
+        var kind = Kind();
+        kind.order = mixed(range.order_first + number, u32(i));
+        kind.known = known;
+        kind.types = known | select(0u, LINE_SILHOUETTE, is_silhouette);
+        kind.crease = crease;
+        kind.inner = select(right_third, third, left_faces || is_border);
         let is_end_of_smooth = ((edge.left ^ edge.right) & EDGE_FLAT) != 0u && !is_border;
-        if (is_silhouette && is_end_of_smooth && all_known == 0u) {
+        if (is_silhouette && is_end_of_smooth && known == 0u) {
             let smooth_third = select(third, right_third, (edge.left & EDGE_FLAT) != 0u);
-            let depth = depth_across(smooth_third - c0.p, c1.p - c0.p, facing_vector(frame, c0.p));
-            stand_off(depth, 0.4, false);
+            kind.own_depth = depth_across(smooth_third - c0.p, c1.p - c0.p, facing_vector(frame, c0.p));
+            kind.own_width = 0.2 * kind.own_depth;
         }
-        if (is_silhouette) {
-            let inner = select(right_third, third, left_faces || is_border);
-            line.outward = outward_from(inner, false);
-        }
-        before = walk(before);
+        list_line(end_of_edge(c0, c1, rest_0, rest_1, s0, keys[i]), end_of_edge(c0, c1, rest_0, rest_1, s1, keys[i + 1]), kind);
     }
 }
-
-var<private> line: Line;

@@ -57,6 +57,30 @@ const SAME_FACE: f32 = 0.97;
 
 const SET_HIDDEN: u32 = 1u;
 
+struct Course {
+    a: vec2f,
+    b: vec2f,
+    depth_a: f32,
+    depth_b: f32,
+    outward: vec2f,
+    reach: f32,
+    own_depth: f32,
+    types: u32,
+    known: u32,
+    crease: f32,
+    owner: u32,
+    material: u32,
+    look_width: f32,
+    widths: vec2f,
+    curvatures: vec2f,
+    lights: vec2f,
+    rest_a: vec3f,
+    rest_b: vec3f,
+    key_a: vec2u,
+    key_b: vec2u,
+    order: u32
+}
+
 struct Detect {
     depth: f32,
     laplacian: f32,
@@ -96,30 +120,6 @@ struct Frame {
     reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
-}
-
-struct Line {
-    a: vec2f,
-    b: vec2f,
-    depth_a: f32,
-    depth_b: f32,
-    outward: vec2f,
-    reach: f32,
-    own_depth: f32,
-    types: u32,
-    known: u32,
-    crease: f32,
-    owner: u32,
-    material: u32,
-    look_width: f32,
-    widths: vec2f,
-    curvatures: vec2f,
-    lights: vec2f,
-    rest_a: vec3f,
-    rest_b: vec3f,
-    key_a: vec2u,
-    key_b: vec2u,
-    order: u32
 }
 
 struct LineSet {
@@ -179,7 +179,7 @@ struct Side {
     crease: f32
 }
 
-fn append(t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32, before: u32) -> u32 {
+fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u, key_b: vec2u) -> u32 {
     let slot = atomicAdd(&counters[COUNT_PIECES], 1u);
     if (slot >= arrayLength(&pieces)) {
         return 0u;
@@ -188,7 +188,7 @@ fn append(t0: f32, t1: f32, width_0: f32, width_1: f32, sets: u32, before: u32) 
     let s1 = in_space(t1);
     let rest_0 = mix(line.rest_a, line.rest_b, s0);
     let rest_1 = mix(line.rest_a, line.rest_b, s1);
-    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(width_0 * mix(line.widths.x, line.widths.y, s0), width_1 * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), select(0u, line.key_a.x, t0 <= 0.0), select(0u, line.key_a.y, t0 <= 0.0), select(0u, line.key_b.x, t1 >= 1.0), select(0u, line.key_b.y, t1 >= 1.0), sets, line.owner, line.order, before, 0u, 0u);
+    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, 0u);
     if (before != 0u) {
         pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
     }
@@ -388,7 +388,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     if (sets == 0u || width <= 0.0) {
         return;
     }
-    line = Line();
+    line = Course();
     line.owner = owner;
     line.widths = vec2f(1.0);
     line.lights = vec2f(0.5);
@@ -414,7 +414,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
                 meets |= select(0u, PIECE_MEETS_B, is_on_line(i, at));
             }
         }
-        append(0.0, 1.0, width, width, sets | meets, 0u);
+        append(0.0, 1.0, vec2f(width), sets | meets, 0u, line.key_a, line.key_b);
         return;
     }
     for (var i = 0; i < 4; i++) {
@@ -428,8 +428,8 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         line.depth_b = depth;
         line.key_b = side_key(at, 1u) ^ vec2u(1073741824u, 1u);
         line.order = line.order + 1u;
-        append(0.0, 1.0, width, width, sets | PIECE_SEAM, 0u);
+        append(0.0, 1.0, vec2f(width), sets | PIECE_SEAM, 0u, line.key_a, line.key_b);
     }
 }
 
-var<private> line: Line;
+var<private> line: Course;

@@ -15,6 +15,8 @@ var<storage, read> piece_ends: array<u32>;
 @group(0) @binding(4)
 var<storage, read> seam_texels: array<u32>;
 
+const COUNT_LINES: u32 = 2u;
+
 const COUNT_PIECES: u32 = 0u;
 
 const COUNT_SEAMS: u32 = 1u;
@@ -82,6 +84,11 @@ fn write_dispatch(first: u32, count: u32) {
     indirect[first] = min(groups, 32768u);
     indirect[first + 1u] = min((groups + 32767u) / 32768u, 65535u);
     indirect[first + 2u] = 1u;
+}
+
+@compute @workgroup_size(1)
+fn size_lines() {
+    write_dispatch(16u, min(counters[COUNT_LINES], arrayLength(&piece_ends) / 2u));
 }
 
 @compute @workgroup_size(1)

@@ -109,6 +109,7 @@ impl LinkPass {
 /// Counts → arguments of indirect work.
 pub(crate) struct SizePass {
     layout: wgpu::BindGroupLayout,
+    lines: wgpu::ComputePipeline,
     seams: wgpu::ComputePipeline,
     pieces: wgpu::ComputePipeline,
 }
@@ -126,7 +127,18 @@ impl SizePass {
         let layout = layout(device, "sizes", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "sizes", &[&layout]);
         let make = |entry| compute_pipeline(device, &pipeline_layout, &module, entry);
-        Self { seams: make("size_seams"), pieces: make("size_pieces"), layout }
+        Self { lines: make("size_lines"), seams: make("size_seams"), pieces: make("size_pieces"), layout }
+    }
+
+    /// For the dispatch over the listed lines.
+    pub(crate) fn lines(
+        &self,
+        device: &wgpu::Device,
+        pass: &mut wgpu::ComputePass<'_>,
+        prepared: &Prepared,
+        targets: &Targets,
+    ) {
+        self.run(device, pass, &self.lines, prepared, targets);
     }
 
     /// For the dispatch over the listed texels.

@@ -13,3 +13,4 @@ pub(crate) mod reference;
 pub(crate) mod seams;
 pub(crate) mod strokes;
 pub(crate) mod surface;
+pub(crate) mod walk;

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{DrawItem, dynamic_binding, geometry::Geometry, pages::PAGE_BYTES};
 use crate::render::{
-    generated::{self as gpu, Piece, StrokeRange},
+    generated::{self as gpu, Line, Piece, StrokeRange},
     gpu::bindings::{self, DYNAMIC_STRIDE},
     layouts::Layouts,
 };
@@ -15,6 +15,7 @@ pub(crate) type Run = (wgpu::BindGroup, u32, u32);
 
 /// What the strokes of a scene need.
 pub(crate) struct StrokeData {
+    pub(crate) lines: wgpu::Buffer,
     pub(crate) pieces: wgpu::Buffer,
     pub(crate) counters: wgpu::Buffer,
     pub(crate) indirect: wgpu::Buffer,
@@ -128,9 +129,10 @@ impl StrokeData {
         };
         let none = Usage::empty();
         Self {
+            lines: stored("lines", capacity * size_of::<Line>(), none),
             pieces: stored("pieces", capacity * size_of::<Piece>(), none),
             counters: stored("line counters", 16, none),
-            indirect: stored("line arguments", 64, Usage::INDIRECT),
+            indirect: stored("line arguments", 80, Usage::INDIRECT),
             buckets: stored("places of ends", 8 * capacity, none),
             links: stored("links", 8 * capacity, none),
             ranks: [stored("ranks", 16 * capacity, none), stored("ranks", 16 * capacity, none)],
