@@ -49,6 +49,8 @@ const METHOD_CONTOUR: u32 = 1u;
 
 const MIN_FACING: f32 = 0.1;
 
+const ROWS: i32 = 8;
+
 struct Detect {
     depth: f32,
     laplacian: f32,
@@ -113,6 +115,13 @@ struct Meeting {
     depth: f32
 }
 
+struct Texel {
+    at: vec2i,
+    id: vec2u,
+    depth: f32,
+    normal: vec4f
+}
+
 fn breaks(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, plane: vec2f) -> vec2f {
     let nearest = max(depth_q, depth_c);
     let distance = distance_from_depth(frame, nearest);
@@ -126,47 +135,59 @@ fn clamped(at: vec2i, size: vec2i) -> vec2i {
     return clamp(at, vec2i(0), size - 1);
 }
 
-fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
-    let id_c = textureLoad(ids, c, 0).xy;
-    let id_q = textureLoad(ids, q, 0).xy;
-    if (id_c.x == 0u && id_q.x == 0u) {
+fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
+    if (c.id.x == 0u && q.id.x == 0u) {
         return 0u;
     }
-    let depth_c = textureLoad(depths, c, 0);
-    let depth_q = textureLoad(depths, q, 0);
-    let normal_c = textureLoad(normals, c, 0);
-    let normal_q = textureLoad(normals, q, 0);
-    let width = select(normal_q.a, normal_c.a, depth_c >= depth_q);
+    let width = select(q.normal.a, c.normal.a, c.depth >= q.depth);
     if (width <= 0.0) {
         return 0u;
     }
     let by_depth = frame.detect.depth > 0.0 || frame.detect.laplacian > 0.0;
     var bits = 0u;
-    if (id_c.x == 0u || id_q.x == 0u) {
+    if (c.id.x == 0u || q.id.x == 0u) {
         if (by_depth) {
             bits |= LINE_SILHOUETTE | (255u << MASK_SILHOUETTE_SHIFT);
         }
         return bits | (LINE_OBJECT & frame.detect.sources);
     }
-    if ((id_c.x & ID_OBJECT) != (id_q.x & ID_OBJECT)) {
+    if (((c.id.x ^ q.id.x) & ID_OBJECT) != 0u) {
         bits |= LINE_OBJECT;
     }
-    if ((id_c.y & 65535u) != (id_q.y & 65535u)) {
+    if (((c.id.y ^ q.id.y) & 65535u) != 0u) {
         bits |= LINE_MATERIAL;
     }
-    if ((id_c.y >> 16u) != (id_q.y >> 16u)) {
+    if ((c.id.y >> 16u) != (q.id.y >> 16u)) {
         bits |= LINE_USER;
     }
     bits &= frame.detect.sources;
-    let step = q - c;
-    let depth_b = textureLoad(depths, clamped(c - step, size), 0);
-    let depth_a = textureLoad(depths, clamped(q + step, size), 0);
-    if (by_depth) {
+    let turn = frame.detect.crease_cos - dot(c.normal.xyz, q.normal.xyz);
+    if (turn > 0.0) {
+        bits |= LINE_CREASE | (strength(turn / CREASE_GROWTH) << MASK_CREASE_SHIFT);
+    }
+    let distance = distance_from_depth(frame, max(c.depth, q.depth));
+    let unit = footprint(frame, distance) * max(frame.line_scale, 1.0);
+    let step_in_units = metres(abs(q.depth - c.depth), distance) / unit;
+    let least = select(select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.laplacian, frame.detect.depth <= 0.0);
+    let can_break = by_depth && step_in_units > least;
+    if (bits == 0u && !can_break) {
+        return 0u;
+    }
+    let step = q.at - c.at;
+    let depth_b = textureLoad(depths, clamped(c.at - step, size), 0);
+    let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
+    if (bits != 0u) {
+        let found = meeting(depth_b, c.depth, q.depth, depth_a);
+        if (found.meets) {
+            bits |= MEETING;
+        }
+    }
+    if (can_break) {
         var plane = vec2f(0.0);
         if (frame.detect.depth > 0.0) {
-            plane = vec2f(plane_step(c, step, depth_c, normal_c.xyz), plane_step(q, step, depth_q, normal_q.xyz));
+            plane = vec2f(plane_step(c.at, step, c.depth, c.normal.xyz), plane_step(q.at, step, q.depth, q.normal.xyz));
         }
-        let broken = breaks(depth_b, depth_c, depth_q, depth_a, plane);
+        let broken = breaks(depth_b, c.depth, q.depth, depth_a, plane);
         var margin = -1.0;
         if (frame.detect.laplacian > 0.0) {
             margin = broken.x / frame.detect.laplacian - 1.0;
@@ -176,16 +197,6 @@ fn difference(c: vec2i, q: vec2i, size: vec2i) -> u32 {
         }
         if (margin > 0.0) {
             bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
-        }
-    }
-    let turn = frame.detect.crease_cos - dot(normal_c.xyz, normal_q.xyz);
-    if (turn > 0.0) {
-        bits |= LINE_CREASE | (strength(turn / CREASE_GROWTH) << MASK_CREASE_SHIFT);
-    }
-    if ((bits & (LINE_OBJECT | LINE_MATERIAL | LINE_USER | LINE_CREASE)) != 0u) {
-        let found = meeting(depth_b, depth_c, depth_q, depth_a);
-        if (found.meets) {
-            bits |= MEETING;
         }
     }
     return bits;
@@ -257,22 +268,40 @@ fn strength(margin: f32) -> u32 {
     return u32(clamp(margin, 0.0, 1.0) * 254.0) + 1u;
 }
 
-@compute @workgroup_size(8, 8)
+fn texel(at: vec2i, size: vec2i) -> Texel {
+    let inside = clamped(at, size);
+    let id = textureLoad(ids, inside, 0).xy;
+    if (id.x == 0u) {
+        return Texel(at, id, 0.0, vec4f(0.0));
+    }
+    return Texel(at, id, textureLoad(depths, inside, 0), textureLoad(normals, inside, 0));
+}
+
+@compute @workgroup_size(64)
 fn detect_lines(@builtin(global_invocation_id) id: vec3u) {
     let size = vec2i(textureDimensions(depths));
-    let at = vec2i(id.xy);
-    if (any(at >= size)) {
+    let x = i32(id.x);
+    let first = i32(id.y) * ROWS;
+    if (x >= size.x) {
         return;
     }
-    let right = clamped(at + vec2i(1, 0), size);
-    let below = clamped(at + vec2i(0, 1), size);
-    let across = clamped(at + vec2i(1, 1), size);
-    let bits = merged(difference(at, across, size), difference(right, below, size));
-    textureStore(mask, at, vec4u(bits & ~MEETING, 0u, 0u, 0u));
-    if ((bits & MEETING) != 0u && frame.line_method == METHOD_CONTOUR) {
-        let slot = atomicAdd(&counters[COUNT_SEAMS], 1u);
-        if (slot < arrayLength(&seam_texels)) {
-            seam_texels[slot] = u32(at.x) | (u32(at.y) << 16u);
+    var left = texel(vec2i(x, first), size);
+    var right = texel(vec2i(x + 1, first), size);
+    for (var y = first; y < min(first + ROWS, size.y); y++) {
+        let below = texel(vec2i(x, y + 1), size);
+        let across = texel(vec2i(x + 1, y + 1), size);
+        var bits = 0u;
+        if ((left.id.x | right.id.x | below.id.x | across.id.x) != 0u) {
+            bits = merged(difference(left, across, size), difference(right, below, size));
         }
+        textureStore(mask, vec2i(x, y), vec4u(bits & ~MEETING, 0u, 0u, 0u));
+        if ((bits & MEETING) != 0u && frame.line_method == METHOD_CONTOUR) {
+            let slot = atomicAdd(&counters[COUNT_SEAMS], 1u);
+            if (slot < arrayLength(&seam_texels)) {
+                seam_texels[slot] = u32(x) | (u32(y) << 16u);
+            }
+        }
+        left = below;
+        right = across;
     }
 }

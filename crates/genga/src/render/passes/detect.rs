@@ -63,7 +63,8 @@ impl DetectPass {
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
-        let [width, height] = targets.size.gbuffer().map(|n| n.div_ceil(8));
-        pass.dispatch_workgroups(width, height, 1);
+        // 64 columns and 8 rows a workgroup.
+        let [width, height] = targets.size.gbuffer();
+        pass.dispatch_workgroups(width.div_ceil(64), height.div_ceil(8), 1);
     }
 }
