@@ -114,7 +114,7 @@ fn by_method() -> RgbImage {
     let scene = model("teapot-on-box");
     let view = view_of(&scene, [440, 400]);
     let head = "reference_height = 400\n";
-    let curves = "width_by.screen_curvature = [[0, 0.75], [4, 2.2]]\n\
+    let curves = "width_by.screen_curvature = [[0, 0.7], [3, 1.4]]\n\
                   width_by.taper = [[0, 0.25], [40, 1]]\n";
     let panel = |method: &str, set: &str| {
         drawing(

@@ -75,35 +75,32 @@ fn main() -> ExitCode {
     ExitCode::FAILURE
 }
 
-/// Lines on edges: 20 cameras, several widths.
+/// Lines of the paper's method on edges: 20 cameras, several widths.
 fn edges(report: &mut Report) {
-    println!("  model, method, width: inked, astray, farthest px, hidden, places, covered %");
+    println!("  model, width: inked, astray, farthest px, hidden, places, covered %");
     for name in ["cube-before-plane", "teapot-on-box"] {
         let scene = model(name);
-        for method in ["contour", "reference"] {
-            for width in [1.0, 2.0, 4.0, 8.0] {
-                let views = cameras(&scene, 20, [480, 360]);
-                let figures = views.iter().map(|view| measure(&scene, method, width, view));
-                let all = figures.fold(Figures::default(), Figures::and);
-                println!(
-                    "  {name}, {method}, {width}: {}, {}, {:.2}, {}, {}, {:.2}",
-                    all.inked,
-                    all.astray,
-                    all.farthest_px,
-                    all.hidden,
-                    all.places,
+        for width in [1.0, 2.0, 4.0, 8.0] {
+            let views = cameras(&scene, 20, [480, 360]);
+            let figures = views.iter().map(|view| measure(&scene, "reference", width, view));
+            let all = figures.fold(Figures::default(), Figures::and);
+            println!(
+                "  {name}, {width}: {}, {}, {:.2}, {}, {}, {:.2}",
+                all.inked,
+                all.astray,
+                all.farthest_px,
+                all.hidden,
+                all.places,
+                100.0 * all.coverage()
+            );
+            // The paper's method draws every edge that crosses the mask, which on dense meshes is
+            // wider than a thin line: what is astray is a figure to report, not a fault.
+            report.check(all.coverage() > 0.98, || {
+                format!(
+                    "{name}, width {width}: {:.2} % of the edges are drawn",
                     100.0 * all.coverage()
-                );
-                let what = format!("{name}, {method}, width {width}");
-                // The paper's method draws every edge that crosses the mask, which on dense meshes
-                // is wider than a thin line: a figure to report, not a fault.
-                report.check(method == "reference" || all.astray == 0, || {
-                    format!("{what}: {} of {} pixels lie off all edges", all.astray, all.inked)
-                });
-                report.check(all.coverage() > 0.98, || {
-                    format!("{what}: {:.2} % of the edges are drawn", 100.0 * all.coverage())
-                });
-            }
+                )
+            });
         }
     }
 }

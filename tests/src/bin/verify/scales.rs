@@ -8,6 +8,7 @@ use genga_tests::edges::cameras;
 use genga_tests::lines::broad::{broad_lines, differing};
 use genga_tests::lines::figures::{Sight, compare, contour_style};
 use genga_tests::lines::ink::Ink;
+use genga_tests::lines::show::leave;
 use genga_tests::lines::subjects::{SUBJECTS, subject};
 
 use crate::Report;
@@ -38,6 +39,10 @@ pub(crate) fn scales(report: &mut Report) {
                 // Half the width and 1.5 pixels are 3 pixels here.
                 let figures = compare(&ink, &sight, 3.0);
                 let what = format!("{name}, {scale_name}, camera {i}");
+                if 100 * differ >= inked || figures.astray > 0 {
+                    let scale_name = scale_name.replace('/', "of");
+                    leave(&ink, &sight, &format!("{name}-scale-{scale_name}-{i}"));
+                }
                 report.check(100 * differ < inked, || {
                     format!("{what}: {differ} of {inked} pixels on broad parts differ")
                 });
