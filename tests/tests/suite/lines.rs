@@ -320,8 +320,7 @@ fn seams_of_objects_and_materials_can_be_switched_off() {
 }
 
 #[test]
-#[should_panic(expected = "contour: no line")]
-fn contour_does_not_yet_draw_where_objects_run_into_each_other() {
+fn lines_are_drawn_where_objects_run_into_each_other() {
     // A ball that sticks half out of a wall: their seam is a circle without an edge.
     let mut scene = Builder::new();
     scene.object("wall", shapes::plane(Vec2::splat(4.0)), None, moved(0.0, 0.0, 0.0));

@@ -26,7 +26,9 @@ fn validated(path: &Path) -> (Module, ModuleInfo) {
 fn validated_text(wgsl: &str, name: &str) -> (Module, ModuleInfo) {
     let module = naga::front::wgsl::parse_str(wgsl)
         .unwrap_or_else(|e| panic!("{}", e.emit_to_string_with_path(wgsl, name)));
-    let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
+    // pack2x16float is core WGSL; naga counts it as a capability.
+    let core = Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    let info = Validator::new(ValidationFlags::all(), core)
         .validate(&module)
         .unwrap_or_else(|e| panic!("{}", e.emit_to_string_with_path(wgsl, name)));
     (module, info)

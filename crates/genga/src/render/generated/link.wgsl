@@ -27,6 +27,8 @@ var<storage, read_write> states: array<vec4u>;
 @group(0) @binding(8)
 var<storage, read_write> places: array<vec4f>;
 
+const CORNER_COSINE: f32 = 0.8;
+
 const COUNT_PIECES: u32 = 0u;
 
 const CURVATURE_REACH: f32 = 8.0;
@@ -244,6 +246,9 @@ fn place_from(entered: u32, reach: f32) -> vec2f {
 fn screen_curvature(end: u32) -> f32 {
     let other = onward(end);
     if (other == NOWHERE) {
+        return 0.0;
+    }
+    if (dot(direction(end), direction(other)) > -CORNER_COSINE) {
         return 0.0;
     }
     let p = end_place(end);

@@ -43,6 +43,8 @@ const CURVE_TAPER: u32 = 4u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const ID_OBJECT: u32 = 16777215u;
+
 const ID_THROUGH_SHIFT: u32 = 28u;
 
 const LINK_END: u32 = 1073741823u;
@@ -198,7 +200,9 @@ struct Stroke {
     @location(2) @interpolate(flat)
     depths: vec2f,
     @location(3) @interpolate(flat)
-    what: vec4u
+    what: vec4u,
+    @location(4) @interpolate(flat)
+    owner: u32
 }
 
 fn behind(p_px: vec2f, line_depth: f32) -> f32 {
@@ -305,6 +309,12 @@ fn hashed(cell: vec3i, seed: u32) -> vec2f {
     return vec2f(f32(h & 65535u), f32(h >> 16u)) / 32767.5 - 1.0;
 }
 
+fn ids_at(p_px: vec2f) -> u32 {
+    let size = vec2i(textureDimensions(ids));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    return textureLoad(ids, clamp(texel, vec2i(0), size - 1), 0).x;
+}
+
 fn ink_at(in: Stroke) -> Ink {
     let nothing = Ink(vec4f(0.0), 0.0, 0.0);
     let p_px = in.clip.xy + frame.tile_origin;
@@ -343,12 +353,10 @@ fn ink_at(in: Stroke) -> Ink {
             covered = behind(p_px, line_depth) > 8.0;
         }
         else {
-            covered = is_covered(p_px, spine, line_depth);
+            covered = is_covered(p_px, spine, line_depth, in.owner);
         }
         if (covered) {
-            let size = vec2i(textureDimensions(ids));
-            let texel = clamp(vec2i(floor(in.clip.xy * frame.gbuffer_scale)), vec2i(0), size - 1);
-            let through = textureLoad(ids, texel, 0).x >> ID_THROUGH_SHIFT;
+            let through = ids_at(p_px) >> ID_THROUGH_SHIFT;
             if (((through >> line_set) & 1u) == 0u) {
                 return nothing;
             }
@@ -358,11 +366,12 @@ fn ink_at(in: Stroke) -> Ink {
     return Ink(channels * coverage * dashed, line_depth, place.t);
 }
 
-fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32) -> bool {
+fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32) -> bool {
     var here = behind(p_px, line_depth);
     if (here <= ON_SURFACE) {
         return false;
     }
+    let steepness = select(1.0, 3.0, ((ids_at(p_px) ^ owner) & ID_OBJECT) == 0u);
     let way = spine_px - p_px;
     let length_px = length(way);
     if (length_px <= NEAR_LINE) {
@@ -375,7 +384,7 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32) -> bool {
     for (var i = 1u; i <= steps; i++) {
         let after = behind(p_px + unit * min(f32(i) + 1.0, length_px), line_depth);
         let drop = here - next;
-        if (drop > STEP + 3.0 * max(fall, max(next - after, 0.0))) {
+        if (drop > STEP + steepness * max(fall, max(next - after, 0.0))) {
             return true;
         }
         fall = max(drop, 0.0);
@@ -487,7 +496,7 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
 
 @vertex
 fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
-    let nothing = Stroke(vec4f(2.0, 2.0, 0.5, 1.0), vec4f(0.0), vec4f(0.0), vec2f(0.0), vec4u(0u));
+    let nothing = Stroke(vec4f(2.0, 2.0, 0.5, 1.0), vec4f(0.0), vec4f(0.0), vec2f(0.0), vec4u(0u), 0u);
     let corner = vertex % 6u;
     let line_set = (vertex / 6u) % frame.line_set_count;
     let piece = vertex / (6u * frame.line_set_count);
@@ -520,5 +529,5 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     if (!end.is_closed && end.distance < BEFORE_CUT && !end.is_joined) {
         flags |= PIECE_COVERED_B;
     }
-    return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b));
+    return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b), pieces[piece].owner);
 }

@@ -57,6 +57,8 @@ const LIGHT_DIRECTIONAL: u32 = 0u;
 
 const LIGHT_SPOT: u32 = 2u;
 
+const LINE_BORDER: u32 = 16u;
+
 const LINE_CREASE: u32 = 2u;
 
 const LINE_MATERIAL: u32 = 8u;
@@ -454,14 +456,15 @@ fn look_up(t: f32) -> Found {
         metres /= max(line_depth, 1e-30);
     }
     let covered = covered_by(p_px, line_depth, SLACK + line.own_depth / metres);
-    var types = line.known;
+    let border = line.known & LINE_BORDER;
+    var types = line.known & ~LINE_BORDER;
     var strength = select(0.0, 1.0, (types & ~LINE_CREASE) != 0u);
     if ((types & LINE_CREASE) != 0u) {
         strength = max(strength, line.crease);
     }
     var through = 0u;
     if (covered > 0.0) {
-        types |= line.types & LINE_SILHOUETTE;
+        types |= border | (line.types & LINE_SILHOUETTE);
         strength = 1.0;
         through = textureLoad(ids, texel_of(p_px), 0).x >> ID_THROUGH_SHIFT;
     }
@@ -486,6 +489,10 @@ fn look_up(t: f32) -> Found {
             types |= identities;
             strength = 1.0;
         }
+    }
+    let ends_here = types & (LINE_SILHOUETTE | LINE_OBJECT | LINE_MATERIAL);
+    if (ends_here != 0u && (line.types & LINE_SILHOUETTE) != 0u) {
+        types = border | (types & ~LINE_CREASE);
     }
     let own_sets = line.owner >> ID_SETS_SHIFT;
     var sets = 0u;

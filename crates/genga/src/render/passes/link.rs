@@ -127,7 +127,12 @@ impl SizePass {
         let layout = layout(device, "sizes", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "sizes", &[&layout]);
         let make = |entry| compute_pipeline(device, &pipeline_layout, &module, entry);
-        Self { lines: make("size_lines"), seams: make("size_seams"), pieces: make("size_pieces"), layout }
+        Self {
+            lines: make("size_lines"),
+            seams: make("size_seams"),
+            pieces: make("size_pieces"),
+            layout,
+        }
     }
 
     /// For the dispatch over the listed lines.
