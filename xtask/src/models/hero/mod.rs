@@ -1,0 +1,191 @@
+//! The hero: a comic figure in mask, cape and boots, eight heads tall.
+
+mod body;
+mod cape;
+mod clips;
+mod face;
+mod hand;
+mod limb;
+mod limbs;
+mod pose;
+mod poses;
+mod shield;
+mod skeleton;
+mod torso;
+mod weights;
+
+use glam::{DVec3, Mat4, Vec3};
+
+use super::glb::{Model, NodeId, Surface};
+use super::scenes::SUN;
+use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh};
+use body::{Body, Wardrobe, edge_length};
+use weights::Weights;
+
+/// Materials by region, first region first.
+const MATERIALS: [(&str, u32); 11] = [
+    ("hair", 0x4A2F27),
+    ("eye", 0xFFFFFF),
+    ("mask", 0x2B2A3A),
+    ("mouth", 0x7A2E2A),
+    ("skin", 0xEDB48C),
+    ("metal", 0xC9CED6),
+    ("belt", 0xF0B429),
+    ("boots", 0xF0B429),
+    ("trunks", 0xD63A2F),
+    ("emblem", 0xF0B429),
+    ("suit", 0x3B6FD4),
+];
+
+/// A part with the bones that hold each vertex.
+struct Held {
+    part: Part,
+    weights: Vec<Weights>,
+}
+
+/// The parts of the figure itself, one for each of [`MATERIALS`], in the bind pose.
+fn figure(body: &Body, bones: usize) -> Vec<Held> {
+    let w = Wardrobe(body);
+    let whole = |p: DVec3| body.whole(p);
+    let mesh = polygonise(&whole, DVec3::new(-0.9, -0.03, -0.25), DVec3::new(0.9, 2.0, 0.3), 0.006);
+    let mesh = remesh(mesh, &whole, &edge_length, 6);
+    let skin = |p: DVec3| body.body(p);
+    let hair_surface = |p: DVec3| body.hair(p);
+    let mask_surface = |p: DVec3| body.body(p) - 0.0022;
+    let belt_surface = |p: DVec3| body.body(p) - 0.0065;
+    let buckle_surface = |p: DVec3| body.body(p) - 0.0120;
+    let trunks_surface = |p: DVec3| body.body(p) - 0.0025;
+    let (hair, eye, mask) = (|p| w.hair(p), |p| w.eye(p), |p| w.mask(p));
+    let (mouth, skin_in, buckle) = (|p| w.mouth(p), |p| w.skin(p), |p| w.buckle(p));
+    let (belt, boots, trunks) =
+        (|p| w.belt(p), |p: DVec3| w.boot(p).min(w.glove(p)), |p| w.trunks(p));
+    let boots_surface = |p: DVec3| if p.y < 0.75 { w.boot_surface(p) } else { w.glove_surface(p) };
+    let emblem = |p| w.emblem(p);
+    let rest = |_: DVec3| -1.0;
+    let regions = [
+        Region { inside: &hair, surface: &hair_surface, raised: false },
+        Region { inside: &eye, surface: &skin, raised: false },
+        Region { inside: &mask, surface: &mask_surface, raised: true },
+        Region { inside: &mouth, surface: &skin, raised: false },
+        Region { inside: &skin_in, surface: &skin, raised: false },
+        Region { inside: &buckle, surface: &buckle_surface, raised: true },
+        Region { inside: &belt, surface: &belt_surface, raised: true },
+        Region { inside: &boots, surface: &boots_surface, raised: true },
+        Region { inside: &trunks, surface: &trunks_surface, raised: true },
+        Region { inside: &emblem, surface: &skin, raised: false },
+        Region { inside: &rest, surface: &skin, raised: false },
+    ];
+    let mut imprinted = imprint(mesh, &whole, &regions, &edge_length);
+    relax(&mut imprinted, &whole, &regions, 4);
+    let weights = held(body, &imprinted, bones);
+    let hold = |part: Part| Held {
+        weights: part.sources.iter().map(|&v| weights[v as usize].clone()).collect(),
+        part,
+    };
+    imprinted.parts(&regions).into_iter().map(hold).collect()
+}
+
+/// Weights of the figure's vertices. Diffusion along the surface smooths what the rules leave.
+fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
+    let weights =
+        imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
+    imprinted.diffused(weights, 6)
+}
+
+impl Held {
+    fn surface(&self) -> Surface {
+        let (joints, weights) = self.weights.iter().map(|w| weights::quantised(w)).unzip();
+        Surface { joints, weights, ..surface(&self.part) }
+    }
+}
+
+fn surface(part: &Part) -> Surface {
+    Surface {
+        positions: part.positions.iter().map(|p| p.as_vec3()).collect(),
+        normals: part.normals.iter().map(|n| n.as_vec3().normalize_or_zero()).collect(),
+        uvs: part.uvs.iter().map(|uv| uv.as_vec2()).collect(),
+        indices: part.indices.clone(),
+        ..Surface::default()
+    }
+}
+
+/// The model.
+pub(super) fn hero() -> Model {
+    let mut model = Model::new("hero");
+    let bones = skeleton::bones();
+    let body = Body::new();
+
+    let locals = poses::charge().place(&bones).locals(&bones);
+    let mut joints: Vec<NodeId> = Vec::new();
+    for (bone, (translation, rotation)) in bones.iter().zip(locals) {
+        let parent = bone.parent.map(|parent| joints[parent]);
+        joints.push(model.joint(bone.name, parent, translation, rotation));
+    }
+    let inverse: Vec<Mat4> =
+        bones.iter().map(|bone| Mat4::from_translation(-bone.at.as_vec3())).collect();
+    let skin = model.skin("skeleton", &joints, &inverse);
+
+    let materials = MATERIALS.map(|(name, color)| match name {
+        "metal" => model.metal(name, color, 0.35),
+        _ => model.material(name, color, false),
+    });
+    let surfaces: Vec<_> = figure(&body, bones.len())
+        .iter()
+        .zip(materials)
+        .map(|(held, material)| (held.surface(), material))
+        .collect();
+    let mesh = model.surfaces("body", &surfaces, &[]);
+    model.skinned("body", mesh, skin);
+
+    let cape_material = model.material("cape", 0xC92F3A, false);
+    let part = cape::cape(&body);
+    let weights = part.positions.iter().map(|&p| cape::cape_weights(p, bones.len())).collect();
+    let mesh = model.surfaces("cape", &[(Held { part, weights }.surface(), cape_material)], &[]);
+    model.skinned("cape", mesh, skin);
+
+    let [metal, ring, boss] = shield::shield();
+    let of = |name: &str| {
+        let index = MATERIALS.iter().position(|&(n, _)| n == name);
+        materials[index.unwrap_or(0)]
+    };
+    let surfaces = [
+        (surface(&metal), of("metal")),
+        (surface(&ring), of("trunks")),
+        (surface(&boss), of("belt")),
+    ];
+    let mesh = model.surfaces("shield", &surfaces, &[]);
+    model.attach("shield", joints[skeleton::LOWER_ARM], mesh);
+    clips::add(&mut model, &bones, &joints);
+    model.camera(Vec3::new(-2.55, 1.05, 4.3), Vec3::new(0.05, 0.86, -0.05), 24.0);
+    model.sun(SUN);
+    model
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    /// Over all materials, every edge has exactly two triangles, wound alike.
+    #[test]
+    fn the_figure_is_closed() {
+        let held = figure(&Body::new(), skeleton::bones().len());
+        let mut edges: BTreeMap<_, (i32, i32)> = BTreeMap::new();
+        for Held { part, .. } in &held {
+            let key = |i: u32| part.positions[i as usize].as_vec3().to_array().map(f32::to_bits);
+            for t in part.indices.chunks_exact(3) {
+                for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
+                    let (a, b) = (key(a), key(b));
+                    if a < b {
+                        edges.entry((a, b)).or_default().0 += 1;
+                    } else {
+                        edges.entry((b, a)).or_default().1 += 1;
+                    }
+                }
+            }
+        }
+        let faults: Vec<_> = edges.iter().filter(|(_, uses)| **uses != (1, 1)).collect();
+        assert!(edges.len() > 30_000 && faults.is_empty(), "{faults:?}");
+    }
+}
