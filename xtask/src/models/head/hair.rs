@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::form::SKULL;
-use crate::models::sculpt::{Field, Part, Solid, smooth_step};
+use crate::models::sculpt::{Field, Part, Solid, lock};
 
 /// Half axes of the cap in metres.
 const CAP: DVec3 = DVec3::new(0.0985, 0.1060, 0.1110);
@@ -53,9 +53,6 @@ fn on_cap(around_deg: f64, down: f64, lift: f64) -> DVec3 {
 
 impl Lock {
     fn part(&self) -> Part {
-        const ALONG: usize = 28;
-        const OVER: usize = 8;
-        const UNDER: usize = 4;
         let [l0, l1, l2] = self.lift;
         let start = self.from.to_radians() * 0.105;
         let path = |t: f64| {
@@ -68,104 +65,51 @@ impl Lock {
                 + l2 * t * (2.0 * t - 1.0);
             on_cap(around, start + self.length * t, lift)
         };
-        let (mut over, mut under) = (Vec::new(), Vec::new());
-        for i in 0..=ALONG {
-            let t = i as f64 / ALONG as f64;
-            let p = path(t);
-            let way = (path((t + 0.01).min(1.0)) - path((t - 0.01).max(0.0))).normalize();
-            let mut out = p - SKULL;
-            out.y *= 0.3;
-            let out = (out - way * out.dot(way)).normalize();
-            let side = way.cross(out);
-            // Narrow at the root, wide to the middle, a point at the tip.
-            let swell = libm::sqrt(smooth_step(-0.05, 0.40, t));
-            let end = 1.0 - libm::pow(((t - 0.42) / 0.58).max(0.0), 1.7);
-            let size = swell * end;
-            let (half, thick) = (self.half_width * size, self.thick * size);
-            let at = |s: f64, bulge: f64| {
-                p + side * (half * s) + out * (bulge * (1.0 - s * s) - 0.35 * half * s * s)
-            };
-            let over_at = |k: usize| at(-1.0 + 2.0 * k as f64 / OVER as f64, thick);
-            let under_at = |k: usize| at(1.0 - 2.0 * k as f64 / UNDER as f64, -0.35 * thick);
-            over.push((0..=OVER).map(over_at).collect());
-            under.push((0..=UNDER).map(under_at).collect());
-        }
-        let mut part = Part::default();
-        part.grid(&over, false);
-        part.grid(&under, false);
-        part
+        let out = |p: DVec3| (p - SKULL) * DVec3::new(1.0, 0.3, 1.0);
+        lock(&path, &out, self.half_width, self.thick, 0.42)
     }
 }
 
+/// Around at root and tip, start, length, half the width, thickness, lifts.
+type Numbers = ([f64; 2], f64, f64, f64, f64, [f64; 3]);
+
+/// The fringe, from the right to the left; parted over the left eye.
+const FRINGE: [Numbers; 6] = [
+    ([-56.0, -64.0], 24.0, 0.158, 0.031, 0.012, [-0.008, 0.014, 0.004]),
+    ([-32.0, -38.0], 24.0, 0.152, 0.031, 0.012, [-0.008, 0.014, 0.004]),
+    ([-10.0, -15.0], 24.0, 0.160, 0.032, 0.012, [-0.008, 0.014, 0.004]),
+    ([9.0, 6.0], 24.0, 0.143, 0.027, 0.012, [-0.008, 0.014, 0.004]),
+    ([26.0, 35.0], 24.0, 0.152, 0.031, 0.012, [-0.008, 0.014, 0.004]),
+    ([50.0, 62.0], 24.0, 0.158, 0.031, 0.012, [-0.008, 0.014, 0.004]),
+];
+
+/// Before and behind the ears, then down the back with ends turned out; left, mirrored right.
+const SIDES: [Numbers; 4] = [
+    ([76.0, 70.0], 26.0, 0.262, 0.028, 0.013, [-0.008, 0.012, -0.006]),
+    ([98.0, 94.0], 26.0, 0.222, 0.036, 0.014, [-0.008, 0.012, 0.006]),
+    ([124.0, 124.0], 30.0, 0.232, 0.044, 0.016, [-0.009, 0.012, 0.018]),
+    ([152.0, 154.0], 34.0, 0.236, 0.044, 0.016, [-0.009, 0.014, 0.014]),
+];
+
+/// The middle of the back, and a wisp at the crown.
+const SINGLE: [Numbers; 2] = [
+    ([180.0, 180.0], 38.0, 0.236, 0.046, 0.018, [-0.009, 0.016, 0.020]),
+    ([30.0, 75.0], 2.0, 0.060, 0.008, 0.006, [0.0, 0.035, 0.050]),
+];
+
 /// All locks.
 pub(super) fn locks() -> Part {
-    let lock = |a0: f64, a1: f64, from: f64, length: f64, half: f64, thick: f64, lift: [f64; 3]| {
-        Lock { around: [a0, a1], from, length, half_width: half, thick, lift }
-    };
-    let mut locks = Vec::new();
-    // The fringe, from the right to the left; parted over the left eye.
-    for (a0, a1, length, half) in [
-        (-56.0, -64.0, 0.158, 0.031),
-        (-32.0, -38.0, 0.152, 0.031),
-        (-10.0, -15.0, 0.160, 0.032),
-        (9.0, 6.0, 0.143, 0.027),
-        (26.0, 35.0, 0.152, 0.031),
-        (50.0, 62.0, 0.158, 0.031),
-    ] {
-        locks.push(lock(a0, a1, 24.0, length, half, 0.012, [-0.008, 0.014, 0.004]));
-    }
-    for side in [-1.0, 1.0] {
-        // Long locks before the ears.
-        locks.push(lock(
-            side * 76.0,
-            side * 70.0,
-            26.0,
-            0.262,
-            0.028,
-            0.013,
-            [-0.008, 0.012, -0.006],
-        ));
-        locks.push(lock(
-            side * 98.0,
-            side * 94.0,
-            26.0,
-            0.222,
-            0.036,
-            0.014,
-            [-0.008, 0.012, 0.006],
-        ));
-        // Down the back, ends turned out.
-        locks.push(lock(
-            side * 124.0,
-            side * 124.0,
-            30.0,
-            0.232,
-            0.044,
-            0.016,
-            [-0.009, 0.012, 0.018],
-        ));
-        locks.push(lock(
-            side * 152.0,
-            side * 154.0,
-            34.0,
-            0.236,
-            0.044,
-            0.016,
-            [-0.009, 0.014, 0.014],
-        ));
-    }
-    locks.push(lock(180.0, 180.0, 38.0, 0.236, 0.046, 0.018, [-0.009, 0.016, 0.020]));
+    let mirrored = |n: &Numbers| (n.0.map(|around| -around), n.1, n.2, n.3, n.4, n.5);
+    let right: Vec<Numbers> = SIDES.iter().map(mirrored).collect();
     let mut all = Part::default();
-    for lock in locks {
-        all.append(&lock.part());
+    for &(around, from, length, half_width, thick, lift) in
+        FRINGE.iter().chain(&SIDES).chain(&right).chain(&SINGLE)
+    {
+        all.append(&Lock { around, from, length, half_width, thick, lift }.part());
     }
-    // A wisp at the crown.
-    all.append(&lock(30.0, 75.0, 2.0, 0.060, 0.008, 0.006, [0.0, 0.035, 0.050]).part());
     for (uv, p) in all.uvs.iter_mut().zip(&all.positions) {
-        *uv = DVec2::new(
-            libm::atan2(p.x, p.z - SKULL.z) / std::f64::consts::TAU + 0.5,
-            (0.40 - p.y) * 2.5,
-        );
+        let turn = libm::atan2(p.x, p.z - SKULL.z) / std::f64::consts::TAU;
+        *uv = DVec2::new(turn + 0.5, (0.40 - p.y) * 2.5);
     }
     all
 }

@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use super::hand::hand;
 use super::limbs::{arm, foot, leg, lower_arm, lower_leg};
-use super::skeleton::mirrored;
 use super::{face, torso};
 use crate::models::sculpt::{Field, Solid, smooth_step};
 
@@ -22,14 +21,20 @@ pub(super) struct Body {
 const HEAD_PIVOT: DVec3 = DVec3::new(0.0, 1.69, -0.005);
 const HEAD_SCALE: f64 = 1.07;
 
+/// The place of a point of the sculpted head.
+pub(super) fn from_head(p: DVec3) -> DVec3 {
+    HEAD_PIVOT + (p - HEAD_PIVOT) * HEAD_SCALE
+}
+
 /// The place in the space that the head is sculpted in.
 fn in_head(p: DVec3) -> DVec3 {
     HEAD_PIVOT + (p - HEAD_PIVOT) / HEAD_SCALE
 }
 
-/// Folds a point into the half where x ≥ 0.
+/// Folds a point into the half where x ≥ 0, rounded by some millimetres so that the halves meet
+/// without a crease.
 fn folded(p: DVec3) -> DVec3 {
-    if p.x < 0.0 { mirrored(p) } else { p }
+    DVec3::new((p.x * p.x + 1.6e-5).sqrt(), p.y, p.z)
 }
 
 impl Body {
@@ -41,7 +46,7 @@ impl Body {
         let mut neck_and_head = torso::neck();
         neck_and_head.scaled(face::head(), HEAD_PIVOT, HEAD_SCALE, 0.012);
         let mut hair = Solid::new();
-        hair.scaled(face::hair(), HEAD_PIVOT, HEAD_SCALE, 0.0);
+        hair.scaled(face::hair_cap(), HEAD_PIVOT, HEAD_SCALE, 0.0);
         let mut body = torso::torso();
         body.solid(neck_and_head.clone(), 0.015);
         body.solid(leg_and_foot.clone(), 0.022);
@@ -78,6 +83,9 @@ impl Body {
     }
 }
 
+/// The longest edges, on legs and arms.
+const COARSE: f64 = 0.0160;
+
 /// The length of edges in metres that a place deserves.
 pub(super) fn edge_length(p: DVec3) -> f64 {
     let q = folded(p);
@@ -85,16 +93,17 @@ pub(super) fn edge_length(p: DVec3) -> f64 {
     let near = |center: DVec3, radius: f64| smooth_step(radius * 1.6, radius, q.distance(center));
     let on_head =
         |center: DVec3, radius: f64| smooth_step(radius * 1.6, radius, h.distance(center));
-    let mut length: f64 = 0.0145;
-    let mut finer = |to: f64, how: f64| length = length.min(0.0145 + (to - 0.0145) * how);
-    finer(0.0075, on_head(DVec3::new(0.0, 1.82, 0.0), 0.13));
+    let mut length: f64 = COARSE;
+    let mut finer = |to: f64, how: f64| length = length.min(COARSE + (to - COARSE) * how);
+    finer(0.0085, on_head(DVec3::new(0.0, 1.82, 0.0), 0.13));
     finer(0.0050, on_head(DVec3::new(0.0, 1.775, 0.085), 0.06));
     finer(0.0035, on_head(DVec3::new(0.031, 1.80, 0.09), 0.026));
-    finer(0.0030, on_head(DVec3::new(0.0, 1.738, 0.10), 0.022));
-    finer(0.0066, near(DVec3::new(0.70, 1.11, 0.07), 0.10));
-    finer(0.0100, near(DVec3::new(0.165, 0.03, 0.04), 0.14));
-    finer(0.0095, near(DVec3::new(0.0, 1.30, 0.06), 0.22));
-    finer(0.0105, near(DVec3::new(0.23, 1.50, -0.01), 0.12));
+    finer(0.0024, on_head(DVec3::new(0.0, 1.738, 0.10), 0.022));
+    finer(0.0045, on_head(DVec3::new(0.078, 1.786, -0.012), 0.03));
+    finer(0.0060, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
+    finer(0.0120, near(DVec3::new(0.165, 0.03, 0.04), 0.14));
+    finer(0.0110, near(DVec3::new(0.0, 1.30, 0.08), 0.19));
+    finer(0.0125, near(DVec3::new(0.23, 1.50, -0.01), 0.12));
     length
 }
 
@@ -119,7 +128,7 @@ impl Wardrobe<'_> {
         let top = l.at(0.22, 0.0, 0.0);
         // A point in front.
         let peak = 0.035
-            * (1.0 - ((q.x - top.x).abs() / 0.05).min(1.0))
+            * smooth_step(0.055, 0.0, (q.x - top.x).abs())
             * smooth_step(-0.02, 0.05, q.z - top.z);
         ((top - q).dot(l.along) - peak).max(q.y - 0.6)
     }
@@ -151,7 +160,7 @@ impl Wardrobe<'_> {
     /// Skin of head and neck down to the collar.
     pub(super) fn skin(&self, p: DVec3) -> f64 {
         // A collar that is higher behind and falls to the breastbone.
-        let low = 1.575 + 0.55 * p.x.abs() - 0.20 * p.z;
+        let low = 1.588 + 1.1 * (p.x.abs() - 0.045).max(0.0) - 0.22 * p.z;
         ((low - p.y) * 0.85).max(p.x.abs() - 0.15)
     }
 
@@ -172,7 +181,7 @@ impl Wardrobe<'_> {
         }
         // It ends under the sideburns.
         let behind = 0.021 - p.z;
-        let upper = 1.826 + 0.010 * smooth_step(0.0, 0.075, u) + 0.004 * smooth_step(0.02, 0.0, u);
+        let upper = 1.828 + 0.010 * smooth_step(0.0, 0.075, u) + 0.004 * smooth_step(0.02, 0.0, u);
         let lower =
             1.772 + 0.008 * smooth_step(0.016, 0.0, u) + 0.022 * smooth_step(0.045, 0.11, u);
         (y - upper).max(lower - y).max(behind) * 0.9
@@ -185,21 +194,21 @@ impl Wardrobe<'_> {
             return 1.0;
         }
         // An almond that rises outwards: between two circles.
-        let t = (u - 0.0335) / 0.0205;
+        let t = (u - 0.0345) / 0.0225;
         let slope = 1.7985 + 0.0040 * t;
-        let upper = slope + 0.0085 * (1.0 - t * t) + 0.0010 * t;
-        let lower = slope - 0.0060 * (1.0 - t * t);
-        (y - upper).max(lower - y).max(u - 0.054).max(0.013 - u) * 0.9
+        let upper = slope + 0.0098 * (1.0 - t * t) + 0.0012 * t;
+        let lower = slope - 0.0066 * (1.0 - t * t);
+        (y - upper).max(lower - y).max(u - 0.057).max(0.012 - u) * 0.9
     }
 
     pub(super) fn mouth(&self, p: DVec3) -> f64 {
         let p = in_head(p);
-        let t = p.x / 0.0235;
+        let t = p.x / 0.0255;
         if p.z < 0.05 {
             return 1.0;
         }
         let middle = 1.7390 - 0.0015 * (1.0 - t * t) + 0.0012 * smooth_step(-0.02, 0.02, p.x);
-        ((p.y - middle).abs() - 0.0019 * (1.0 - t * t).max(-1.0)).max(p.x.abs() - 0.0235)
+        ((p.y - middle).abs() - 0.0024 * (1.0 - t * t).max(-1.0)).max(p.x.abs() - 0.0245)
     }
 
     /// A chevron on the breast.

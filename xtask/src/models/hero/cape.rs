@@ -1,16 +1,18 @@
 //! The cape: a sheet from shoulder to shoulder, in folds, hanging clear of the body.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 use super::body::Body;
-use super::skeleton::{CAPE, CAPE_JOINTS, UPPER_CHEST};
-use super::weights::Weights;
-use crate::models::sculpt::{Part, gradient, sheet, smooth_step};
+use super::skeleton::{CAPE, CAPE_JOINTS};
+use super::weights::{Weights, body_weights};
+use crate::models::sculpt::{Part, gradient, lathe, sheet, smooth_step};
 
-const ROWS: usize = 44;
-const COLUMNS: usize = 48;
+const ROWS: usize = 36;
+const COLUMNS: usize = 36;
 /// Distance that it keeps from the body at the least, in metres.
-const CLEARANCE: f64 = 0.014;
+const CLEARANCE: f64 = 0.016;
+/// Angle in radians from behind at which its upper corners lie.
+const CORNER: f64 = 1.62;
 
 /// The cape in the bind pose.
 pub(super) fn cape(body: &Body) -> Part {
@@ -32,13 +34,13 @@ pub(super) fn cape(body: &Body) -> Part {
 /// `u` runs from 1 on the left to −1 on the right, `v` from 0 at the top to 1.
 fn place(body: &Body, u: f64, v: f64) -> DVec3 {
     // Round the neck, over the shoulders to the collar bones.
-    let angle = u * 1.75;
+    let angle = u * CORNER;
     let top = DVec3::new(
-        0.150 * libm::sin(angle),
-        1.600 - 0.030 * u * u,
-        -0.040 - 0.090 * libm::cos(angle),
+        0.148 * libm::sin(angle),
+        1.625 + 0.030 * u * u,
+        -0.035 - 0.095 * libm::cos(angle),
     );
-    let half = 0.20 + 0.26 * libm::pow(v, 0.8);
+    let half = 0.150 + 0.31 * libm::pow(v, 0.9);
     let wave = libm::cos(u * 9.5) * 0.6 + libm::cos(u * 5.0 + 0.8) * 0.4;
     let hanging = DVec3::new(
         u * half,
@@ -47,26 +49,61 @@ fn place(body: &Body, u: f64, v: f64) -> DVec3 {
     );
     let mut p = top.lerp(hanging, smooth_step(0.0, 0.20, v));
     let field = |p: DVec3| body.body(p);
-    for _ in 0..6 {
-        let d = body.body(p);
-        if d >= CLEARANCE {
-            break;
-        }
-        p += gradient(&field, p).normalize_or_zero() * (CLEARANCE - d + 0.0005);
+    // It lies on the shoulders, and below keeps off the body.
+    let lying = smooth_step(0.10, 0.0, v);
+    // Over the edge of the shoulders the way out is backwards.
+    let backwards = DVec3::new(0.0, 0.2, -1.0) * smooth_step(0.0, 0.08, v);
+    for _ in 0..16 {
+        let off = CLEARANCE + 0.014 * smooth_step(0.02, 0.12, v) - body.body(p);
+        let out = gradient(&field, p);
+        p += if off > 0.0 {
+            (out + backwards * 1.5).normalize_or_zero() * (off + 0.0005)
+        } else {
+            out.normalize_or_zero() * (off * lying)
+        };
     }
     p
 }
 
-/// Weights of a point on the cape.
-pub(super) fn cape_weights(p: DVec3, bones: usize) -> Weights {
-    let mut weights = vec![0.0; bones];
+/// The two clasps that hold the upper corners.
+pub(super) fn clasps(body: &Body) -> Part {
+    let dome: Vec<(f64, f64)> = (0..=6)
+        .map(|i| {
+            let angle = f64::from(i) / 6.0 * 1.5;
+            (0.027 * libm::sin(angle), 0.016 * libm::cos(angle))
+        })
+        .collect();
+    let rim = dome[6];
+    let form = lathe(&[&dome, &[rim, (rim.0, -0.014)], &[(rim.0, -0.014), (0.0, -0.014)]], 28);
+    let field = |p: DVec3| body.body(p);
+    let mut all = Part::default();
+    for u in [1.0, -1.0] {
+        let corner = place(body, u * 0.93, 0.012);
+        let normal = gradient(&field, corner).normalize_or_zero();
+        let side = normal.cross(DVec3::Z).normalize_or_zero();
+        let axes = DMat3::from_cols(side, normal.cross(side), normal);
+        let mut part = form.clone();
+        for (p, n) in part.positions.iter_mut().zip(&mut part.normals) {
+            (*p, *n) = (corner + axes * *p, axes * *n);
+        }
+        all.append(&part);
+    }
+    all
+}
+
+/// Weights of a point on the cape: the body's own on the shoulders, the cape's joints below.
+pub(super) fn cape_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
+    let mut weights = body_weights(body, p, bones);
     let mut left = 1.0;
     for i in (0..CAPE_JOINTS).rev() {
         let joint = 1.53 - 0.30 * i as f64;
-        let share = smooth_step(joint + 0.10, joint - 0.16, p.y) * left;
+        let share = smooth_step(joint + 0.03, joint - 0.22, p.y) * left;
         weights[CAPE + i] = share;
         left -= share;
     }
-    weights[UPPER_CHEST] = left;
+    let on_body: f64 = weights[..CAPE].iter().sum();
+    for weight in &mut weights[..CAPE] {
+        *weight *= left / on_body;
+    }
     weights
 }

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use super::torso::belly;
-use crate::models::sculpt::Solid;
+use crate::models::sculpt::{Part, Solid, lock};
 
 fn v(x: f64, y: f64, z: f64) -> DVec3 {
     DVec3::new(x, y, z)
@@ -37,7 +37,7 @@ pub(super) fn head() -> Solid {
         0.010,
     );
     // Sockets and eyes.
-    s.carve_ellipsoid(v(0.031, 1.799, 0.104), v(0.021, 0.011, 0.013), i, 0.010);
+    s.carve_ellipsoid(v(0.032, 1.799, 0.104), v(0.022, 0.012, 0.013), i, 0.010);
     // Nose.
     s.cone(v(0.0, 1.808, 0.096), 0.0075, v(0.0, 1.770, 0.115), 0.0092, 0.008);
     s.ellipsoid(v(0.0105, 1.764, 0.104), v(0.0075, 0.0065, 0.009), i, 0.005);
@@ -47,45 +47,195 @@ pub(super) fn head() -> Solid {
     s.carve_ellipsoid(v(0.0, 1.7225, 0.103), v(0.018, 0.004, 0.005), i, 0.008);
     // Ear.
     let ear = DMat3::from_cols(v(0.94, 0.0, -0.34), v(0.0, 1.0, 0.0), v(0.34, 0.0, 0.94));
-    s.ellipsoid(v(0.0785, 1.786, -0.012), v(0.009, 0.031, 0.019), ear, 0.006);
-    s.carve_ellipsoid(v(0.0885, 1.790, -0.008), v(0.006, 0.019, 0.010), ear, 0.004);
+    s.ellipsoid(v(0.0785, 1.786, -0.012), v(0.010, 0.031, 0.019), ear, 0.010);
+    s.carve_ellipsoid(v(0.0885, 1.790, -0.008), v(0.006, 0.019, 0.010), ear, 0.006);
     s
 }
 
-/// The hair: a cap with swept-back locks. Asymmetric, so it takes both halves.
-pub(super) fn hair() -> Solid {
+/// The hair's cap; locks lie over it.
+pub(super) fn hair_cap() -> Solid {
     let mut s = Solid::new();
-    let mut cap = Solid::new();
-    cap.ellipsoid(v(0.0, 1.838, -0.016), v(0.083, 0.088, 0.102), DMat3::IDENTITY, 0.0);
+    s.ellipsoid(v(0.0, 1.838, -0.016), v(0.083, 0.088, 0.102), DMat3::IDENTITY, 0.0);
     // The hairline: over the forehead, down before the ears, across the nape.
-    cap.cut(v(0.0, 1.872, 0.060), v(0.0, -0.55, 0.83), 0.008);
-    cap.cut(v(0.0, 1.792, -0.02), v(0.0, -0.93, 0.37), 0.008);
-    s.solid(cap, 0.0);
+    s.cut(v(0.0, 1.872, 0.060), v(0.0, -0.55, 0.83), 0.008);
+    s.cut(v(0.0, 1.792, -0.02), v(0.0, -0.93, 0.37), 0.008);
     for side in [-1.0, 1.0] {
         // Sideburns.
         s.cone(v(side * 0.072, 1.822, 0.026), 0.011, v(side * 0.074, 1.778, 0.018), 0.006, 0.010);
-        // Sides swept back.
-        for (y, z, drop) in [(1.868, 0.040, 0.028), (1.842, 0.022, 0.030), (1.815, -0.002, 0.028)] {
-            let (a, b) = (v(side * 0.066, y, z), v(side * 0.066, y - drop, z - 0.085));
-            belly(&mut s, a, b, v(side, 0.2, 0.0), (0.019, 0.022), 0.006);
-        }
     }
-    // The crest rises over the forehead and falls back; it is parted on the left.
-    for (x, lift, length) in [
-        (-0.052, 0.000, 0.10),
-        (-0.030, 0.008, 0.13),
-        (-0.006, 0.014, 0.14),
-        (0.018, 0.012, 0.135),
-        (0.041, 0.004, 0.11),
-    ] {
-        let root = v(x, 1.884 - x * x * 4.0, 0.068);
-        let crest = v(x * 1.15 - 0.004, 1.922 + lift - x * x * 6.0, 0.048);
-        let back = v(x * 1.1 - 0.006, 1.912 + lift * 0.5 - x * x * 6.0, 0.048 - length);
-        s.cone(root, 0.013, crest, 0.020, 0.008);
-        s.cone(crest, 0.020, back, 0.017, 0.008);
-    }
-    // One lock falls on the forehead.
-    s.cone(v(0.012, 1.892, 0.078), 0.012, v(0.020, 1.872, 0.096), 0.009, 0.006);
-    s.cone(v(0.020, 1.872, 0.096), 0.009, v(0.012, 1.852, 0.101), 0.0045, 0.003);
     s
+}
+
+/// Control points of a Bézier curve, half the width, thickness, where it begins to narrow.
+type Curve = ([[f64; 3]; 4], f64, f64, f64);
+
+/// Locks on the left, mirrored to the right: swept back along the side.
+const SIDES: [Curve; 3] = [
+    (
+        [
+            [0.064, 1.872, 0.050],
+            [0.090, 1.890, 0.020],
+            [0.092, 1.885, -0.055],
+            [0.060, 1.868, -0.118],
+        ],
+        0.019,
+        0.010,
+        0.5,
+    ),
+    (
+        [
+            [0.073, 1.842, 0.036],
+            [0.096, 1.856, 0.008],
+            [0.099, 1.842, -0.060],
+            [0.062, 1.818, -0.122],
+        ],
+        0.019,
+        0.010,
+        0.5,
+    ),
+    (
+        [
+            [0.077, 1.812, 0.020],
+            [0.094, 1.826, 0.000],
+            [0.096, 1.806, -0.055],
+            [0.060, 1.772, -0.108],
+        ],
+        0.018,
+        0.009,
+        0.5,
+    ),
+];
+
+/// The crest that rises over the forehead and falls back, what covers the back of the head, and
+/// a lock on the forehead.
+const SINGLE: [Curve; 10] = [
+    (
+        [
+            [-0.052, 1.868, 0.062],
+            [-0.064, 1.920, 0.076],
+            [-0.066, 1.938, 0.010],
+            [-0.058, 1.900, -0.070],
+        ],
+        0.020,
+        0.013,
+        0.5,
+    ),
+    (
+        [
+            [-0.032, 1.880, 0.074],
+            [-0.042, 1.938, 0.096],
+            [-0.044, 1.962, 0.020],
+            [-0.038, 1.925, -0.075],
+        ],
+        0.020,
+        0.014,
+        0.5,
+    ),
+    (
+        [
+            [-0.008, 1.884, 0.080],
+            [-0.014, 1.950, 0.106],
+            [-0.014, 1.972, 0.025],
+            [-0.010, 1.932, -0.078],
+        ],
+        0.020,
+        0.015,
+        0.5,
+    ),
+    (
+        [
+            [0.016, 1.882, 0.078],
+            [0.018, 1.944, 0.100],
+            [0.020, 1.966, 0.022],
+            [0.020, 1.930, -0.076],
+        ],
+        0.019,
+        0.014,
+        0.5,
+    ),
+    (
+        [
+            [0.040, 1.874, 0.070],
+            [0.050, 1.926, 0.088],
+            [0.054, 1.946, 0.014],
+            [0.048, 1.912, -0.072],
+        ],
+        0.020,
+        0.013,
+        0.5,
+    ),
+    (
+        [
+            [-0.040, 1.918, -0.030],
+            [-0.050, 1.930, -0.100],
+            [-0.052, 1.868, -0.146],
+            [-0.036, 1.800, -0.122],
+        ],
+        0.026,
+        0.012,
+        0.45,
+    ),
+    (
+        [
+            [0.000, 1.924, -0.030],
+            [0.000, 1.938, -0.105],
+            [0.000, 1.870, -0.154],
+            [0.000, 1.782, -0.120],
+        ],
+        0.028,
+        0.013,
+        0.45,
+    ),
+    (
+        [
+            [0.040, 1.918, -0.030],
+            [0.050, 1.930, -0.100],
+            [0.052, 1.868, -0.146],
+            [0.036, 1.800, -0.122],
+        ],
+        0.026,
+        0.012,
+        0.45,
+    ),
+    (
+        [
+            [0.004, 1.884, 0.074],
+            [0.010, 1.914, 0.108],
+            [0.034, 1.880, 0.116],
+            [0.014, 1.850, 0.108],
+        ],
+        0.011,
+        0.007,
+        0.35,
+    ),
+    (
+        [
+            [-0.012, 1.886, 0.074],
+            [-0.016, 1.910, 0.108],
+            [-0.030, 1.884, 0.114],
+            [-0.034, 1.864, 0.104],
+        ],
+        0.010,
+        0.007,
+        0.35,
+    ),
+];
+
+/// The locks, at the sculpted size.
+pub(super) fn locks() -> Part {
+    let mirrored = |(points, half, thick, point): &Curve| {
+        (points.map(|[x, y, z]| [-x, y, z]), *half, *thick, *point)
+    };
+    let right: Vec<Curve> = SIDES.iter().map(mirrored).collect();
+    let mut all = Part::default();
+    for (points, half, thick, point) in SIDES.iter().chain(&right).chain(&SINGLE) {
+        let [a, b, c, d] = points.map(DVec3::from_array);
+        let path = |t: f64| {
+            let s = 1.0 - t;
+            a * (s * s * s) + b * (3.0 * s * s * t) + c * (3.0 * s * t * t) + d * (t * t * t)
+        };
+        let out = |p: DVec3| p - v(0.0, 1.835, -0.010);
+        all.append(&lock(&path, &out, *half, *thick, *point));
+    }
+    all
 }

@@ -33,10 +33,10 @@ pub(super) fn hand() -> Solid {
     s.ellipsoid(at(0.042, -0.028, 0.014), DVec3::new(0.018, 0.036, 0.014), axes, 0.012);
     // Fingers: index to little; bent by about 30° at each joint.
     let fingers = [
-        (0.037, 0.098, 0.014, 1.00),
-        (0.0125, 0.102, 0.005, 1.08),
-        (-0.0125, 0.099, -0.005, 1.02),
-        (-0.036, 0.092, -0.016, 0.86),
+        (0.0400, 0.097, 0.018, 1.00),
+        (0.0135, 0.102, 0.006, 1.08),
+        (-0.0135, 0.099, -0.006, 1.02),
+        (-0.0390, 0.091, -0.020, 0.88),
     ];
     for (side, start, fan, size) in fingers {
         let root = at(start, side, 0.002);
@@ -45,10 +45,10 @@ pub(super) fn hand() -> Solid {
         let middle = root + (bent(0.90, 0.44) * 0.042 + spread * 0.4) * size;
         let last = middle + (bent(0.55, 0.83) * 0.030 + spread * 0.12) * size;
         let tip = last + bent(0.30, 0.95) * 0.022 * size;
-        s.cone(root - along * 0.02, 0.0125, middle, 0.0118, 0.006);
-        s.ellipsoid(root - palm * 0.006, DVec3::new(0.012, 0.014, 0.012), axes, 0.006);
-        s.cone(middle, 0.0118, last, 0.0108, 0.003);
-        s.cone(last, 0.0108, tip, 0.0096, 0.003);
+        s.cone(root - along * 0.02, 0.0112, middle, 0.0108, 0.008);
+        s.ellipsoid(root - palm * 0.006, DVec3::new(0.0115, 0.014, 0.012), axes, 0.008);
+        s.cone(middle, 0.0110, last, 0.0102, 0.004);
+        s.cone(last, 0.0103, tip, 0.0094, 0.004);
     }
     // The thumb points forwards and across.
     let [base, joint, tip] = thumb_joints();

@@ -3,6 +3,8 @@
 mod body;
 mod cape;
 mod clips;
+#[cfg(test)]
+mod collisions;
 mod face;
 mod hand;
 mod limb;
@@ -17,7 +19,6 @@ mod weights;
 use glam::{DVec3, Mat4, Vec3};
 
 use super::glb::{Model, NodeId, Surface};
-use super::scenes::SUN;
 use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh};
 use body::{Body, Wardrobe, edge_length};
 use weights::Weights;
@@ -95,8 +96,17 @@ fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
 impl Held {
     fn surface(&self) -> Surface {
         let (joints, weights) = self.weights.iter().map(|w| weights::quantised(w)).unzip();
-        Surface { joints, weights, ..surface(&self.part) }
+        let line_widths = self.weights.iter().map(|w| line_width(w) as f32).collect();
+        Surface { joints, weights, line_widths, ..surface(&self.part) }
     }
+}
+
+/// Lines are finer on the head and the hands.
+fn line_width(weights: &[f64]) -> f64 {
+    use skeleton::{FINGER_TIPS, FINGERS, HAND, HEAD, RIGHT, THUMB};
+    let hands = [HAND, FINGERS, FINGER_TIPS, THUMB];
+    let on_hands: f64 = hands.iter().map(|&bone| weights[bone] + weights[bone + RIGHT]).sum();
+    1.0 - 0.5 * weights[HEAD] - 0.35 * on_hands
 }
 
 fn surface(part: &Part) -> Surface {
@@ -109,11 +119,43 @@ fn surface(part: &Part) -> Surface {
     }
 }
 
+/// Everything that is drawn, in the bind pose.
+struct Cast {
+    /// One for each of [`MATERIALS`].
+    figure: Vec<Held>,
+    locks: Held,
+    cape: Held,
+    clasps: Held,
+    /// Metal, ring, boss, relative to the elbow.
+    shield: [Part; 3],
+}
+
+fn cast(bones: usize) -> Cast {
+    let body = Body::new();
+    let mut locks = face::locks();
+    for p in &mut locks.positions {
+        *p = body::from_head(*p);
+    }
+    let mut on_head = vec![0.0; bones];
+    on_head[skeleton::HEAD] = 1.0;
+    let hold = |part: Part, weights: &dyn Fn(DVec3) -> Weights| Held {
+        weights: part.positions.iter().map(|&p| weights(p)).collect(),
+        part,
+    };
+    Cast {
+        figure: figure(&body, bones),
+        locks: hold(locks, &|_| on_head.clone()),
+        cape: hold(cape::cape(&body), &|p| cape::cape_weights(&body, p, bones)),
+        clasps: hold(cape::clasps(&body), &|p| weights::body_weights(&body, p, bones)),
+        shield: shield::shield(),
+    }
+}
+
 /// The model.
 pub(super) fn hero() -> Model {
     let mut model = Model::new("hero");
     let bones = skeleton::bones();
-    let body = Body::new();
+    let cast = cast(bones.len());
 
     let locals = poses::charge().place(&bones).locals(&bones);
     let mut joints: Vec<NodeId> = Vec::new();
@@ -129,35 +171,27 @@ pub(super) fn hero() -> Model {
         "metal" => model.metal(name, color, 0.35),
         _ => model.material(name, color, false),
     });
-    let surfaces: Vec<_> = figure(&body, bones.len())
-        .iter()
-        .zip(materials)
-        .map(|(held, material)| (held.surface(), material))
-        .collect();
-    let mesh = model.surfaces("body", &surfaces, &[]);
-    model.skinned("body", mesh, skin);
-
-    let cape_material = model.material("cape", 0xC92F3A, false);
-    let part = cape::cape(&body);
-    let weights = part.positions.iter().map(|&p| cape::cape_weights(p, bones.len())).collect();
-    let mesh = model.surfaces("cape", &[(Held { part, weights }.surface(), cape_material)], &[]);
-    model.skinned("cape", mesh, skin);
-
-    let [metal, ring, boss] = shield::shield();
+    let cloth = model.material("cape", 0xC92F3A, false);
     let of = |name: &str| {
         let index = MATERIALS.iter().position(|&(n, _)| n == name);
         materials[index.unwrap_or(0)]
     };
-    let surfaces = [
-        (surface(&metal), of("metal")),
-        (surface(&ring), of("trunks")),
-        (surface(&boss), of("belt")),
-    ];
-    let mesh = model.surfaces("shield", &surfaces, &[]);
+    let figure = cast.figure.iter().zip(materials);
+    let figure: Vec<_> = figure.map(|(held, material)| (held.surface(), material)).collect();
+    let hair = [(cast.locks.surface(), of("hair"))];
+    let cape = [(cast.cape.surface(), cloth), (cast.clasps.surface(), of("belt"))];
+    for (name, surfaces) in [("body", figure.as_slice()), ("hair", &hair), ("cape", &cape)] {
+        let mesh = model.surfaces(name, surfaces, &[]);
+        model.skinned(name, mesh, skin);
+    }
+    let [metal, ring, boss] = &cast.shield;
+    let shield =
+        [(surface(metal), of("metal")), (surface(ring), of("trunks")), (surface(boss), of("belt"))];
+    let mesh = model.surfaces("shield", &shield, &[]);
     model.attach("shield", joints[skeleton::LOWER_ARM], mesh);
     clips::add(&mut model, &bones, &joints);
     model.camera(Vec3::new(-2.55, 1.05, 4.3), Vec3::new(0.05, 0.86, -0.05), 24.0);
-    model.sun(SUN);
+    model.sun(Vec3::new(0.80, -0.60, -0.22));
     model
 }
 

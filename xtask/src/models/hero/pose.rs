@@ -202,7 +202,7 @@ impl Placed {
         let flat = |v: DVec3| (v - axis * v.dot(axis)).normalize_or_zero();
         let (now, wanted) = (flat(lower * palm), flat(turn * palm));
         let angle = libm::atan2(now.cross(wanted).dot(axis), now.dot(wanted)).to_degrees();
-        self.turns[LOWER_ARM + of] = about(axis, angle * 0.55) * lower;
+        self.turns[LOWER_ARM + of] = about(axis, angle * 0.75) * lower;
         // Fingers bend about the axis across the palm.
         let across = -mirror(bind.thumb) * sign;
         let bend = |deg: f64| about(across, deg);
@@ -234,5 +234,14 @@ impl Placed {
             (offset.as_vec3(), q.as_quat().normalize())
         };
         bones.iter().enumerate().map(local).collect()
+    }
+
+    /// A point of the bind pose, moved by its bones.
+    #[cfg(test)]
+    pub(super) fn skinned(&self, bones: &[Bone], p: DVec3, weights: &[(usize, f64)]) -> DVec3 {
+        let moved = |&(bone, weight): &(usize, f64)| {
+            (self.places[bone] + self.turns[bone] * (p - bones[bone].at)) * weight
+        };
+        weights.iter().map(moved).sum()
     }
 }

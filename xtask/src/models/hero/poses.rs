@@ -22,11 +22,11 @@ pub(super) fn charge() -> Pose {
         ],
         arms: [
             Arm {
-                shoulder: [6.0, 14.0],
-                wrist: v(0.13, 1.27, 0.60),
-                elbow: v(1.0, -0.35, 0.15),
-                hand: v(-0.85, 0.25, 0.45),
-                palm: v(-0.45, -0.15, -0.9),
+                shoulder: [8.0, 16.0],
+                wrist: v(0.03, 1.30, 0.54),
+                elbow: v(1.0, -0.30, 0.1),
+                hand: v(-0.90, 0.30, 0.25),
+                palm: v(-0.10, 0.15, -1.0),
                 fist: 1.0,
             },
             Arm {

@@ -7,12 +7,12 @@ use super::skeleton::LOWER_ARM_AT;
 use crate::models::sculpt::{Part, lathe};
 
 /// The shield's radius in metres.
-pub(super) const RADIUS: f64 = 0.27;
+const RADIUS: f64 = 0.25;
 
 /// Its metal, its coloured ring and its boss, relative to the elbow in the bind pose.
 pub(super) fn shield() -> [Part; 3] {
     // A dish: part of a sphere.
-    let dish = |r: f64| 0.046 - 0.62 * r * r;
+    let dish = |r: f64| 0.046 - 0.66 * r * r;
     let run = |from: f64, to: f64, lift: f64, steps: usize| -> Vec<(f64, f64)> {
         (0..=steps)
             .map(|i| {
@@ -21,7 +21,7 @@ pub(super) fn shield() -> [Part; 3] {
             })
             .collect()
     };
-    let rim = 0.238;
+    let rim = 0.220;
     // A round rim from the ring's edge to the back.
     let bead: Vec<(f64, f64)> = (0..=10)
         .map(|i| {
@@ -38,9 +38,9 @@ pub(super) fn shield() -> [Part; 3] {
             (r, end_z + (dish(r) - dish(end_r)) * 0.8)
         })
         .collect();
-    let middle = run(0.088, 0.160, 0.0, 5);
-    let metal = lathe(&[&middle, &[(rim, dish(rim) + 0.004), bead[0]], &bead, &behind], 64);
-    let ring = lathe(&[&[middle[5], (0.160, dish(0.160) + 0.004)], &run(0.160, rim, 0.004, 6)], 64);
+    let middle = run(0.088, 0.148, 0.0, 5);
+    let metal = lathe(&[&middle, &[(rim, dish(rim) + 0.004), bead[0]], &bead, &behind], 48);
+    let ring = lathe(&[&[middle[5], (0.148, dish(0.148) + 0.004)], &run(0.148, rim, 0.004, 6)], 48);
     let boss: Vec<(f64, f64)> = (0..=8)
         .map(|i| {
             let angle = f64::from(i) / 8.0 * 1.5;
@@ -48,10 +48,10 @@ pub(super) fn shield() -> [Part; 3] {
             (r, dish(0.088) + 0.012 + 0.030 * libm::cos(angle))
         })
         .collect();
-    let boss = lathe(&[&boss, &[*boss.last().unwrap_or(&(0.0, 0.0)), middle[0]]], 64);
+    let boss = lathe(&[&boss, &[*boss.last().unwrap_or(&(0.0, 0.0)), middle[0]]], 48);
     let limb = lower_arm();
     let axes = DMat3::from_cols(limb.along, limb.out.cross(limb.along), limb.out);
-    let center = limb.at(0.66, 0.082, 0.0) - LOWER_ARM_AT;
+    let center = limb.at(0.84, 0.088, 0.0) - LOWER_ARM_AT;
     [metal, ring, boss].map(|mut part| {
         for p in &mut part.positions {
             *p = center + axes * *p;

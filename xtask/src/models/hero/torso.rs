@@ -82,7 +82,8 @@ pub(super) fn torso() -> Solid {
         (0.050, 0.042),
         0.03,
     );
-    s.cone(v(0.018, 1.545, 0.058), 0.012, v(0.185, 1.575, 0.005), 0.013, 0.02);
+    s.ellipsoid(v(0.055, 1.565, 0.000), v(0.085, 0.040, 0.052), i, 0.035);
+    s.cone(v(0.018, 1.548, 0.056), 0.013, v(0.185, 1.572, 0.010), 0.014, 0.030);
     // Chest: upper and lower part of each pectoral, running out to the arm.
     let front = v(0.35, 0.12, 1.0);
     belly(&mut s, v(0.000, 1.425, 0.070), v(0.230, 1.505, 0.018), front, (0.066, 0.056), 0.022);
@@ -96,19 +97,10 @@ pub(super) fn torso() -> Solid {
     );
     s.ellipsoid(v(0.090, 1.415, 0.066), v(0.080, 0.050, 0.050), i, 0.012);
     // Ribs' edge and the teeth of the serratus.
-    for (k, (x, y, z)) in [(0.150, 1.345, 0.040), (0.143, 1.303, 0.052), (0.132, 1.262, 0.058)]
-        .into_iter()
-        .enumerate()
-    {
-        let lean = v(-0.6, -0.55, 0.5) * (0.040 - 0.002 * k as f64);
-        belly(
-            &mut s,
-            v(x, y, z) - lean,
-            v(x, y, z) + lean,
-            v(0.9, 0.0, 0.5),
-            (0.019, 0.014),
-            0.014,
-        );
+    for (x, y, z) in [(0.148, 1.350, 0.040), (0.141, 1.310, 0.050), (0.130, 1.270, 0.056)] {
+        let lean = v(-0.6, -0.45, 0.5) * 0.038;
+        let (a, b) = (v(x, y, z) - lean, v(x, y, z) + lean);
+        belly(&mut s, a, b, v(0.9, 0.0, 0.5), (0.021, 0.012), 0.020);
     }
     // Belly: four rows, and the flanks that bulge over the belt.
     for (y, z, height, wide) in

@@ -6,6 +6,7 @@
 
 mod features;
 mod field;
+mod lock;
 mod mesh;
 mod polygonise;
 mod remesh;
@@ -13,6 +14,7 @@ mod sweep;
 
 pub(super) use features::{Imprinted, Region, imprint, relax};
 pub(super) use field::{Field, Solid, gradient, smooth_step};
+pub(super) use lock::lock;
 pub(super) use polygonise::polygonise;
 pub(super) use remesh::remesh;
 pub(super) use sweep::{Part, lathe, sheet};
