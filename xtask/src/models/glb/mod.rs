@@ -61,6 +61,8 @@ pub(crate) struct Surface {
 pub(crate) enum Track {
     Rotation(NodeId, Vec<Quat>),
     Translation(NodeId, Vec<Vec3>),
+    /// Weights of the morph targets, one after the other for each key.
+    Weights(NodeId, Vec<f32>),
 }
 
 /// A model under construction.
@@ -260,6 +262,11 @@ impl Model {
                     let bytes = floats(keys.iter().flat_map(|t| t.to_array()));
                     (node.0, "translation", self.accessor(&bytes, None, FLOAT, "VEC3", keys.len()))
                 }
+                Track::Weights(node, weights) => {
+                    let bytes = floats(weights.iter().copied());
+                    let count = weights.len();
+                    (node.0, "weights", self.accessor(&bytes, None, FLOAT, "SCALAR", count))
+                }
             };
             let target = ChannelTarget { node, path };
             channels.push(Channel { sampler: samplers.len(), target });
@@ -269,8 +276,8 @@ impl Model {
     }
 
     /// Adds a node that shows a mesh at that place.
-    pub(crate) fn object(&mut self, name: &'static str, mesh: MeshId, translation: Vec3) {
-        self.node(Node { mesh: Some(mesh.0), translation, ..Node::new(name) });
+    pub(crate) fn object(&mut self, name: &'static str, mesh: MeshId, translation: Vec3) -> NodeId {
+        self.child(None, Node { mesh: Some(mesh.0), translation, ..Node::new(name) })
     }
 
     /// Adds a mesh and a node of the same name that shows it.

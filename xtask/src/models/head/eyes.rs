@@ -51,7 +51,7 @@ pub(super) fn mouth(p: DVec3) -> f64 {
         return 1.0;
     }
     let t = p.x / MOUTH_HALF;
-    (p.y - mouth_line(p.x)).abs() - 0.0012 * (1.0 - t * t).max(-1.0)
+    (p.y - mouth_line(p.x)).abs() - 0.0013 * (1.0 - t * t * t * t).max(-1.0)
 }
 
 fn mouth_line(x: f64) -> f64 {
@@ -77,7 +77,7 @@ fn lid_motion(p: DVec2, how: f64) -> f64 {
     let (upper, lower) = lids(t);
     let closed = axis(t) - 0.62 * BELOW * arch(t);
     let moved = if p.y >= upper {
-        -(upper - closed) * (1.0 - (p.y - upper) / 0.034).max(0.0)
+        -(upper - closed) * smooth_step(0.0135, 0.0070, p.y - upper)
     } else if p.y <= lower {
         (closed - lower) * (1.0 - (lower - p.y) / 0.022).max(0.0)
     } else {
@@ -90,7 +90,7 @@ fn lid_motion(p: DVec2, how: f64) -> f64 {
 /// The corners of the mouth rise, the mouth opens, the lower lids lift.
 pub(super) fn smile(p: DVec2) -> DVec2 {
     let from_mouth = p - DVec2::new(0.0, MOUTH_Y);
-    let near = smooth_step(0.034, 0.006, (from_mouth * DVec2::new(0.8, 1.0)).length());
+    let near = smooth_step(0.026, 0.006, (from_mouth * DVec2::new(0.75, 1.0)).length());
     let t = (p.x / MOUTH_HALF).clamp(-1.6, 1.6);
     let mut moved = DVec2::new(p.x * 0.28, 0.0048 * t * t - 0.0012) * near;
     if p.y < mouth_line(p.x) {
@@ -226,7 +226,7 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
     };
     let brow = |s: f64| {
         let t = -0.85 + 1.95 * s;
-        let y = CENTER.y + 0.0345 + 0.0035 * (1.0 - (t - 0.35) * (t - 0.35)) + 0.0016 * t;
+        let y = CENTER.y + 0.0345 + 0.0040 * (1.0 - (t - 0.15) * (t - 0.15)) - 0.0006 * t;
         let thick = 0.0021 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };

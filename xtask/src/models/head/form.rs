@@ -36,7 +36,7 @@ impl Form {
         s.cone(v(0.0, 0.175, -0.024), 0.029, v(0.0, 0.05, -0.034), 0.031, 0.014);
         s.cone(v(0.0, 0.046, -0.036), 0.040, v(0.125, 0.004, -0.036), 0.046, 0.045);
         s.ellipsoid(v(0.0, 0.0, -0.012), v(0.115, 0.055, 0.062), i, 0.03);
-        s.cut(DVec3::ZERO, -DVec3::Y, 0.0);
+        s.cut(DVec3::ZERO, -DVec3::Y, 0.030);
         Self(s)
     }
 
@@ -66,12 +66,12 @@ pub(super) fn edge_length(p: DVec3) -> f64 {
     let mut finer = |to: f64, how: f64| length = length.min(0.0085 + (to - 0.0085) * how);
     finer(0.0042, near(v(0.0, 0.20, 0.07), 0.055));
     finer(0.0028, near(v(0.041, 0.222, 0.075), 0.030));
-    finer(0.0020, near(v(0.0, 0.167, 0.082), 0.018));
+    finer(0.0012, near(v(0.0, 0.167, 0.082), 0.014));
     finer(0.0045, near(v(0.09, 0.212, -0.012), 0.03));
     length
 }
 
 /// Clothes below the neck.
 pub(super) fn cloth(p: DVec3) -> f64 {
-    (p.y - 0.072 - 0.20 * p.z) * 0.95
+    (p.y - 0.090 - 0.20 * p.z) * 0.95
 }

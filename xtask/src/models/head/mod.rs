@@ -6,8 +6,7 @@ mod hair;
 
 use glam::{DVec2, DVec3, Vec3};
 
-use super::glb::{MaterialId, Model, Surface};
-use super::scenes::SUN;
+use super::glb::{MaterialId, Model, Surface, Track};
 use super::sculpt::{Field, Part, Region, imprint, polygonise, relax, remesh, sheet, smooth_step};
 use eyes::Warp;
 use form::{Form, edge_length};
@@ -39,8 +38,9 @@ fn bust(form: &Form) -> [Part; 4] {
 fn warped(form: &Form, part: &Part, warp: Warp) -> (Vec<DVec3>, Vec<DVec3>) {
     let moved = |(&p, &n): (&DVec3, &DVec3)| {
         let from = DVec2::new(p.x, p.y);
-        let to = warp(from);
-        if p.z < 0.0 || from.distance(to) < 1e-9 {
+        // What does not face forwards, such as the neck below the chin, stays.
+        let to = from.lerp(warp(from), smooth_step(0.10, 0.40, n.z));
+        if p.z < 0.02 || from.distance(to) < 1e-9 {
             return (p, n);
         }
         let ((a, na), (b, nb)) = (form.on_face(from.x, from.y), form.on_face(to.x, to.y));
@@ -142,7 +142,12 @@ pub(super) fn head() -> Model {
         surfaces.push((morphing(&rest, targets), material));
     }
     let face = model.surfaces("face", &surfaces, &TARGETS.map(|(name, _)| name));
-    model.object("face", face, Vec3::ZERO);
+    let face = model.object("face", face, Vec3::ZERO);
+    // A blink shuts the eyes for a moment; a smile comes and stays.
+    let blink = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0].to_vec();
+    model.clip("blink", &[0.0, 0.1, 0.15, 0.3], &[Track::Weights(face, blink)]);
+    let smile = [0.0, 0.0, 0.0, 1.0].to_vec();
+    model.clip("smile", &[0.0, 0.4], &[Track::Weights(face, smile)]);
 
     let mesh = model.surfaces("bust", &[(surface(&clothes), cloth)], &[]);
     model.object("bust", mesh, Vec3::ZERO);
@@ -161,6 +166,6 @@ pub(super) fn head() -> Model {
     let mesh = model.surfaces("hair_locks", &[(surface(&hair::locks()), hair)], &[]);
     model.object("hair_locks", mesh, Vec3::ZERO);
     model.camera(Vec3::new(-0.42, 0.27, 1.02), Vec3::new(0.0, 0.205, 0.0), 24.0);
-    model.sun(SUN);
+    model.sun(Vec3::new(0.62, -0.55, -0.60));
     model
 }

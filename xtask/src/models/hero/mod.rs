@@ -14,6 +14,7 @@ mod poses;
 mod shield;
 mod skeleton;
 mod torso;
+mod unwrap;
 mod weights;
 
 use glam::{DVec3, Mat4, Vec3};
@@ -142,8 +143,10 @@ fn cast(bones: usize) -> Cast {
         weights: part.positions.iter().map(|&p| weights(p)).collect(),
         part,
     };
+    let mut figure = figure(&body, bones);
+    figure.iter_mut().for_each(unwrap::unwrap);
     Cast {
-        figure: figure(&body, bones),
+        figure,
         locks: hold(locks, &|_| on_head.clone()),
         cape: hold(cape::cape(&body), &|p| cape::cape_weights(&body, p, bones)),
         clasps: hold(cape::clasps(&body), &|p| weights::body_weights(&body, p, bones)),
