@@ -102,7 +102,9 @@ pub(super) fn edge_length(p: DVec3) -> f64 {
     finer(0.0045, on_head(DVec3::new(0.078, 1.786, -0.012), 0.03));
     finer(0.0060, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
     finer(0.0120, near(DVec3::new(0.165, 0.03, 0.04), 0.14));
-    finer(0.0110, near(DVec3::new(0.0, 1.30, 0.08), 0.19));
+    finer(0.0098, near(DVec3::new(0.0, 1.29, 0.09), 0.17));
+    finer(0.0070, near(DVec3::new(0.0, 1.05, 0.12), 0.045));
+    finer(0.0060, near(DVec3::new(0.0, 1.462, 0.10), 0.075));
     finer(0.0125, near(DVec3::new(0.23, 1.50, -0.01), 0.12));
     length
 }
@@ -120,7 +122,7 @@ impl Wardrobe<'_> {
     pub(super) fn glove_surface(&self, p: DVec3) -> f64 {
         let (q, l) = (folded(p), lower_arm());
         let below = (q - l.at(0.42, 0.0, 0.0)).dot(l.along);
-        self.0.body(p) - 0.0035 - 0.012 * smooth_step(0.075, 0.0, below)
+        self.0.body(p) - 0.0150 * smooth_step(0.080, 0.0, below)
     }
 
     pub(super) fn boot(&self, p: DVec3) -> f64 {
@@ -160,7 +162,7 @@ impl Wardrobe<'_> {
     /// Skin of head and neck down to the collar.
     pub(super) fn skin(&self, p: DVec3) -> f64 {
         // A collar that is higher behind and falls to the breastbone.
-        let low = 1.588 + 1.1 * (p.x.abs() - 0.045).max(0.0) - 0.22 * p.z;
+        let low = 1.586 + 8.5 * p.x * p.x - 0.22 * p.z;
         ((low - p.y) * 0.85).max(p.x.abs() - 0.15)
     }
 
@@ -180,11 +182,17 @@ impl Wardrobe<'_> {
             return 1.0;
         }
         // It ends under the sideburns.
-        let behind = 0.021 - p.z;
+        let behind = 0.029 - p.z;
         let upper = 1.828 + 0.010 * smooth_step(0.0, 0.075, u) + 0.004 * smooth_step(0.02, 0.0, u);
         let lower =
             1.772 + 0.008 * smooth_step(0.016, 0.0, u) + 0.022 * smooth_step(0.045, 0.11, u);
         (y - upper).max(lower - y).max(behind) * 0.9
+    }
+
+    /// It lies flatter on the nose, whose sides are steep.
+    pub(super) fn mask_surface(&self, p: DVec3) -> f64 {
+        let (u, _) = Self::on_face(in_head(p));
+        self.0.body(p) - 0.0005 - 0.0018 * smooth_step(0.010, 0.026, u)
     }
 
     pub(super) fn eye(&self, p: DVec3) -> f64 {
@@ -211,14 +219,14 @@ impl Wardrobe<'_> {
         ((p.y - middle).abs() - 0.0024 * (1.0 - t * t).max(-1.0)).max(p.x.abs() - 0.0245)
     }
 
-    /// A chevron on the breast.
+    /// A star of four points on the breast.
     pub(super) fn emblem(&self, p: DVec3) -> f64 {
         if p.z < 0.0 {
             return 1.0;
         }
-        let x = p.x.abs();
-        let upper = 1.415 + 0.62 * x;
-        let width = 0.034 + 0.10 * x;
-        ((p.y - upper - width).max(upper - p.y) * 0.8).max(x - 0.105)
+        let [x, y] = [p.x.abs() / 0.068, (p.y - 1.462).abs() / 0.088];
+        // A superellipse with hollow sides; its slope is kept finite on the axes.
+        let root = |t: f64| libm::pow(t * t + 4e-4, 0.35);
+        (root(x) + root(y) - 1.06) * 0.05
     }
 }

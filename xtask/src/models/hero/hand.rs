@@ -45,15 +45,15 @@ pub(super) fn hand() -> Solid {
         let middle = root + (bent(0.90, 0.44) * 0.042 + spread * 0.4) * size;
         let last = middle + (bent(0.55, 0.83) * 0.030 + spread * 0.12) * size;
         let tip = last + bent(0.30, 0.95) * 0.022 * size;
-        s.cone(root - along * 0.02, 0.0112, middle, 0.0108, 0.008);
-        s.ellipsoid(root - palm * 0.006, DVec3::new(0.0115, 0.014, 0.012), axes, 0.008);
-        s.cone(middle, 0.0110, last, 0.0102, 0.004);
-        s.cone(last, 0.0103, tip, 0.0094, 0.004);
+        s.cone(root - along * 0.02, 0.0122, middle, 0.0114, 0.012);
+        s.ellipsoid(root - palm * 0.006, DVec3::new(0.0115, 0.014, 0.012), axes, 0.012);
+        s.cone(middle, 0.0115, last, 0.0107, 0.006);
+        s.cone(last, 0.0107, tip, 0.0098, 0.005);
     }
     // The thumb points forwards and across.
     let [base, joint, tip] = thumb_joints();
     s.cone(at(0.018, 0.022, 0.010), 0.018, base, 0.017, 0.010);
-    s.cone(base, 0.0165, joint, 0.0135, 0.008);
+    s.cone(base, 0.0165, joint, 0.0135, 0.012);
     s.cone(joint, 0.0135, tip, 0.0112, 0.003);
     s
 }

@@ -53,7 +53,7 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
     let mesh = remesh(mesh, &whole, &edge_length, 6);
     let skin = |p: DVec3| body.body(p);
     let hair_surface = |p: DVec3| body.hair(p);
-    let mask_surface = |p: DVec3| body.body(p) - 0.0022;
+    let mask_surface = |p: DVec3| w.mask_surface(p);
     let belt_surface = |p: DVec3| body.body(p) - 0.0065;
     let buckle_surface = |p: DVec3| body.body(p) - 0.0120;
     let trunks_surface = |p: DVec3| body.body(p) - 0.0025;
@@ -189,7 +189,7 @@ pub(super) fn hero() -> Model {
     }
     let [metal, ring, boss] = &cast.shield;
     let shield =
-        [(surface(metal), of("metal")), (surface(ring), of("trunks")), (surface(boss), of("belt"))];
+        [(surface(metal), of("metal")), (surface(ring), of("suit")), (surface(boss), of("belt"))];
     let mesh = model.surfaces("shield", &shield, &[]);
     model.attach("shield", joints[skeleton::LOWER_ARM], mesh);
     clips::add(&mut model, &bones, &joints);

@@ -83,7 +83,7 @@ pub(super) fn torso() -> Solid {
         0.03,
     );
     s.ellipsoid(v(0.055, 1.565, 0.000), v(0.085, 0.040, 0.052), i, 0.035);
-    s.cone(v(0.018, 1.548, 0.056), 0.013, v(0.185, 1.572, 0.010), 0.014, 0.030);
+    s.cone(v(0.100, 1.552, 0.012), 0.036, v(0.205, 1.545, 0.010), 0.042, 0.030);
     // Chest: upper and lower part of each pectoral, running out to the arm.
     let front = v(0.35, 0.12, 1.0);
     belly(&mut s, v(0.000, 1.425, 0.070), v(0.230, 1.505, 0.018), front, (0.066, 0.056), 0.022);
@@ -106,7 +106,7 @@ pub(super) fn torso() -> Solid {
     for (y, z, height, wide) in
         [(1.325, 0.087, 0.034, 0.040), (1.262, 0.090, 0.034, 0.041), (1.197, 0.088, 0.035, 0.040)]
     {
-        s.ellipsoid(v(0.0405, y, z - 0.008), v(wide, height, 0.027), i, 0.007);
+        s.ellipsoid(v(0.0405, y, z - 0.008), v(wide, height, 0.029), i, 0.011);
     }
     s.ellipsoid(v(0.033, 1.11, 0.062), v(0.042, 0.068, 0.034), i, 0.010);
     belly(
