@@ -17,15 +17,17 @@ mod torso;
 mod unwrap;
 mod weights;
 
+use std::collections::BTreeMap;
+
 use glam::{DVec3, Mat4, Vec3};
 
-use super::glb::{Model, NodeId, Surface};
+use super::glb::{MaterialId, Model, NodeId, Surface};
 use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh};
 use body::{Body, Wardrobe, edge_length};
 use weights::Weights;
 
 /// Materials by region, first region first.
-const MATERIALS: [(&str, u32); 11] = [
+const MATERIALS: [(&str, u32); 13] = [
     ("hair", 0x4A2F27),
     ("eye", 0xFFFFFF),
     ("mask", 0x2B2A3A),
@@ -33,6 +35,9 @@ const MATERIALS: [(&str, u32); 11] = [
     ("skin", 0xEDB48C),
     ("metal", 0xC9CED6),
     ("belt", 0xF0B429),
+    // Cuffs, soles, and the boots and gloves themselves.
+    ("boots", 0xF0B429),
+    ("boots", 0xF0B429),
     ("boots", 0xF0B429),
     ("trunks", 0xD63A2F),
     ("emblem", 0xF0B429),
@@ -62,6 +67,12 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
     let (belt, boots, trunks) =
         (|p| w.belt(p), |p: DVec3| w.boot(p).min(w.glove(p)), |p| w.trunks(p));
     let boots_surface = |p: DVec3| if p.y < 0.75 { w.boot_surface(p) } else { w.glove_surface(p) };
+    let cuffs = |p: DVec3| boots(p).max(-boots(p) - 0.024);
+    let cuff_surface = |p: DVec3| boots_surface(p) - 0.0055;
+    // The rest begins under the cuffs, not at their edge, where two borders would coincide.
+    let below_cuffs = |p: DVec3| boots(p) + 0.012;
+    let soles = |p: DVec3| p.y - 0.019;
+    let sole_surface = |p: DVec3| body.body(p) - 0.0085;
     let emblem = |p| w.emblem(p);
     let rest = |_: DVec3| -1.0;
     let regions = [
@@ -72,7 +83,9 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
         Region { inside: &skin_in, surface: &skin, raised: false },
         Region { inside: &buckle, surface: &buckle_surface, raised: true },
         Region { inside: &belt, surface: &belt_surface, raised: true },
-        Region { inside: &boots, surface: &boots_surface, raised: true },
+        Region { inside: &cuffs, surface: &cuff_surface, raised: true },
+        Region { inside: &soles, surface: &sole_surface, raised: true },
+        Region { inside: &below_cuffs, surface: &boots_surface, raised: true },
         Region { inside: &trunks, surface: &trunks_surface, raised: true },
         Region { inside: &emblem, surface: &skin, raised: false },
         Region { inside: &rest, surface: &skin, raised: false },
@@ -91,7 +104,7 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
 fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
     let weights =
         imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
-    imprinted.diffused(weights, 6)
+    imprinted.diffused(weights, 8)
 }
 
 impl Held {
@@ -170,15 +183,15 @@ pub(super) fn hero() -> Model {
         bones.iter().map(|bone| Mat4::from_translation(-bone.at.as_vec3())).collect();
     let skin = model.skin("skeleton", &joints, &inverse);
 
-    let materials = MATERIALS.map(|(name, color)| match name {
-        "metal" => model.metal(name, color, 0.35),
-        _ => model.material(name, color, false),
+    let mut named: BTreeMap<&str, MaterialId> = BTreeMap::new();
+    let materials = MATERIALS.map(|(name, color)| {
+        *named.entry(name).or_insert_with(|| match name {
+            "metal" => model.metal(name, color, 0.35),
+            _ => model.material(name, color, false),
+        })
     });
     let cloth = model.material("cape", 0xC92F3A, false);
-    let of = |name: &str| {
-        let index = MATERIALS.iter().position(|&(n, _)| n == name);
-        materials[index.unwrap_or(0)]
-    };
+    let of = |name: &str| named[name];
     let figure = cast.figure.iter().zip(materials);
     let figure: Vec<_> = figure.map(|(held, material)| (held.surface(), material)).collect();
     let hair = [(cast.locks.surface(), of("hair"))];
@@ -194,14 +207,12 @@ pub(super) fn hero() -> Model {
     model.attach("shield", joints[skeleton::LOWER_ARM], mesh);
     clips::add(&mut model, &bones, &joints);
     model.camera(Vec3::new(-2.55, 1.05, 4.3), Vec3::new(0.05, 0.86, -0.05), 24.0);
-    model.sun(Vec3::new(0.80, -0.60, -0.22));
+    model.sun(Vec3::new(0.85, -0.58, -0.05));
     model
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
     use super::*;
 
     /// Over all materials, every edge has exactly two triangles, wound alike.
@@ -224,5 +235,52 @@ mod tests {
         }
         let faults: Vec<_> = edges.iter().filter(|(_, uses)| **uses != (1, 1)).collect();
         assert!(edges.len() > 30_000 && faults.is_empty(), "{faults:?}");
+    }
+
+    /// 1 for an equilateral triangle, 0 for a sliver.
+    fn quality([a, b, c]: [DVec3; 3]) -> f64 {
+        let sides = a.distance_squared(b) + b.distance_squared(c) + c.distance_squared(a);
+        2.0 * 3f64.sqrt() * (b - a).cross(c - a).length() / sides
+    }
+
+    #[test]
+    fn triangles_are_even() {
+        let held = figure(&Body::new(), skeleton::bones().len());
+        let mut qualities = Vec::new();
+        for Held { part, .. } in &held {
+            for t in part.indices.chunks_exact(3) {
+                qualities.push(quality([0, 1, 2].map(|i| part.positions[t[i] as usize])));
+            }
+        }
+        let mean = qualities.iter().sum::<f64>() / qualities.len() as f64;
+        let worst = qualities.iter().copied().fold(1.0, f64::min);
+        println!("{} triangles: mean {mean:.3}, worst {worst:.4}", qualities.len());
+        assert!((20_000..60_000).contains(&qualities.len()));
+        assert!(mean > 0.85 && worst > 0.015, "mean {mean}, worst {worst}");
+    }
+
+    /// Weights change smoothly: neighbours across an edge share most of their bones.
+    #[test]
+    fn weights_add_up_and_are_smooth() {
+        let held = figure(&Body::new(), skeleton::bones().len());
+        for Held { part, weights } in &held {
+            for w in weights {
+                assert!((w.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+                let (_, shares) = weights::quantised(w);
+                assert_eq!(shares.iter().map(|&s| u32::from(s)).sum::<u32>(), 65535);
+            }
+            for t in part.indices.chunks_exact(3) {
+                for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                    let [a, b] = [t[i], t[j]].map(|i| i as usize);
+                    let change: f64 =
+                        weights[a].iter().zip(&weights[b]).map(|(a, b)| (a - b).abs()).sum();
+                    let length = part.positions[a].distance(part.positions[b]);
+                    let p = part.positions[a];
+                    // Fingers bend within a shorter way.
+                    let steepest = if p.x.abs() > 0.6 { 130.0 } else { 60.0 };
+                    assert!(change < 0.05 + steepest * length, "{change} over {length} m at {p}");
+                }
+            }
+        }
     }
 }

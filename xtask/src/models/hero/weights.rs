@@ -72,11 +72,10 @@ fn hand_down_arm(w: &mut [f64], of: usize, q: DVec3) {
     let (base, tip) = hand::thumb_line();
     let way = tip - base;
     let t = ((q - base).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-    if q.distance(base + way * t) < 0.024 && (q - FINGERS_AT).dot(along) < 0.004 {
-        let thumb = smooth_step(-0.016, 0.016, (q - THUMB_AT).dot(way.normalize()));
-        hand_on(w, HAND + of, THUMB + of, thumb);
-        return;
-    }
+    let on_thumb = smooth_step(0.030, 0.020, q.distance(base + way * t))
+        * smooth_step(0.012, -0.004, (q - FINGERS_AT).dot(along));
+    let thumb = smooth_step(-0.016, 0.016, (q - THUMB_AT).dot(way.normalize()));
+    hand_on(w, HAND + of, THUMB + of, thumb * on_thumb);
     hand_on(w, HAND + of, FINGERS + of, smooth_step(-0.012, 0.010, (q - FINGERS_AT).dot(along)));
     let across = (along * 0.6 + palm * 0.8).normalize();
     let tips = smooth_step(-0.008, 0.008, (q - FINGER_TIPS_AT).dot(across));
