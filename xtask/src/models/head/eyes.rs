@@ -42,6 +42,9 @@ pub(super) fn opening(p: DVec3) -> f64 {
     (libm::pow(t.abs(), 2.5) + libm::pow(h, 2.2) - 1.0) * 0.010
 }
 
+const IRIS: DVec2 = DVec2::new(CENTER.x - 0.0012, CENTER.y - 0.0020);
+const IRIS_RADII: DVec2 = DVec2::new(0.0165, 0.0225);
+
 const MOUTH_Y: f64 = 0.1660;
 const MOUTH_HALF: f64 = 0.0165;
 
@@ -71,18 +74,25 @@ pub(super) fn blink(p: DVec2) -> DVec2 {
     DVec2::new(p.x, p.y + lid_motion(p, 1.0))
 }
 
+/// What is left of the white when the lids are closed, behind the lashes, in metres.
+const LEFT: f64 = 0.0006;
+
 fn lid_motion(p: DVec2, how: f64) -> f64 {
     let t = across(p.x.abs());
     let fade = smooth_step(1.45, 1.0, t.abs());
     let (upper, lower) = lids(t);
-    let closed = axis(t) - 0.62 * BELOW * arch(t);
+    let bowl = (1.0 - t * t).max(0.0);
+    let closed = axis(t) - 0.62 * BELOW * bowl;
+    let left = LEFT * bowl;
     let moved = if p.y >= upper {
-        -(upper - closed) * smooth_step(0.0135, 0.0070, p.y - upper)
+        // The lashes' wings come down with the lid.
+        let above = p.y - upper;
+        let wing = 0.0072 * smooth_step(0.72, 0.98, t.abs()) * smooth_step(0.0, 0.0130, above);
+        -(upper - closed + wing) * smooth_step(0.034, 0.0065, above)
     } else if p.y <= lower {
-        (closed - lower) * (1.0 - (lower - p.y) / 0.022).max(0.0)
+        (closed - left - lower) * (1.0 - (lower - p.y) / 0.022).max(0.0)
     } else {
-        // What is left of the white is a line behind the lashes.
-        closed + (p.y - closed) * 0.03 - p.y
+        closed - left * (upper - p.y) / (upper - lower) - p.y
     };
     moved * fade * how
 }
@@ -140,21 +150,19 @@ impl Patch {
     }
 }
 
-/// A round patch: an ellipse, cut by the lids where `within` says so. Rows are rings from the
+/// A round patch: an ellipse, cut off by the lids and the iris's edge. Rows are rings from the
 /// middle outwards.
-fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64, within: bool) -> Patch {
+fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
     const RINGS: usize = 6;
     const STEPS: usize = 40;
     let reach = |angle: f64| {
         let way = DVec2::new(libm::cos(angle), libm::sin(angle));
         let full = 1.0 / (way / radii).length();
-        if !within {
-            return way * full;
-        }
-        // Until a little before the lid.
+        // Until a little before the lid, and within the iris.
         let inside = |r: f64| {
             let p = center + way * r;
             opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002
+                && ((p - IRIS) / IRIS_RADII).length() < 0.999
         };
         let (mut near, mut far) = (0.0, full);
         if inside(full) {
@@ -201,14 +209,14 @@ fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patc
 
 /// The patches of one eye, with their materials.
 pub(super) fn patches() -> Vec<(&'static str, Patch)> {
-    let iris = DVec2::new(CENTER.x - 0.0012, CENTER.y - 0.0020);
-    let radii = DVec2::new(0.0165, 0.0225);
     let upper_lash = |s: f64| {
         // From before the inner corner to a wing beyond the outer one.
         let t = -1.0 + 2.0 * s;
         let (y, _) = lids(t * 0.995);
+        // The wing leaves the lid outwards instead of following it down.
         let wing = smooth_step(0.80, 1.0, s);
-        let p = DVec2::new(CENTER.x + HALF_WIDTH * (t + 0.16 * wing), y - 0.0005 + 0.0012 * wing);
+        let y = y + (axis(1.0) + 0.0085 - y) * wing;
+        let p = DVec2::new(CENTER.x + HALF_WIDTH * (t + 0.10 * wing), y - 0.0005);
         let thick = 0.0009 + 0.0032 * smooth_step(0.0, 0.45, s) * smooth_step(1.0, 0.84, s);
         (p + DVec2::Y * thick * 0.7, DVec2::new(-0.15 * t, 1.0) * thick)
     };
@@ -231,46 +239,19 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
     vec![
-        ("iris", disc(iris, radii, -0.0009, 0.0004, true)),
+        ("iris", disc(IRIS, IRIS_RADII, -0.0009, 0.0004)),
         (
             "iris_shade",
-            disc(
-                iris + DVec2::new(0.0, 0.0085),
-                radii * DVec2::new(0.93, 0.52),
-                -0.0004,
-                0.0003,
-                true,
-            ),
+            disc(IRIS + DVec2::Y * 0.0120, IRIS_RADII * DVec2::new(1.2, 0.62), -0.0004, 0.0003),
         ),
+        ("pupil", disc(IRIS + DVec2::Y * 0.0010, IRIS_RADII * 0.47, 0.0000, 0.0002)),
         (
-            "pupil",
-            disc(
-                iris + DVec2::new(0.0, 0.0010),
-                radii * DVec2::new(0.46, 0.50),
-                0.0000,
-                0.0002,
-                true,
-            ),
+            "shine",
+            disc(IRIS + DVec2::new(0.0058, 0.0105), DVec2::new(0.0044, 0.0054), 0.0004, 0.0003),
         ),
         (
             "shine",
-            disc(
-                iris + DVec2::new(0.0058, 0.0095),
-                DVec2::new(0.0042, 0.0050),
-                0.0004,
-                0.0003,
-                true,
-            ),
-        ),
-        (
-            "shine",
-            disc(
-                iris + DVec2::new(-0.0058, -0.0105),
-                DVec2::new(0.0026, 0.0030),
-                0.0004,
-                0.0002,
-                true,
-            ),
+            disc(IRIS - DVec2::new(0.0062, 0.0110), DVec2::new(0.0026, 0.0030), 0.0004, 0.0002),
         ),
         ("lash", stroke(36, 0.0022, &upper_lash)),
         ("lash", stroke(20, 0.0008, &lower_lash)),

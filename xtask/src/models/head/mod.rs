@@ -38,12 +38,14 @@ fn bust(form: &Form) -> [Part; 4] {
 fn warped(form: &Form, part: &Part, warp: Warp) -> (Vec<DVec3>, Vec<DVec3>) {
     let moved = |(&p, &n): (&DVec3, &DVec3)| {
         let from = DVec2::new(p.x, p.y);
-        // What does not face forwards, such as the neck below the chin, stays.
-        let to = from.lerp(warp(from), smooth_step(0.10, 0.40, n.z));
-        if p.z < 0.02 || from.distance(to) < 1e-9 {
+        if p.z < 0.02 || from.distance(warp(from)) < 1e-9 {
             return (p, n);
         }
-        let ((a, na), (b, nb)) = (form.on_face(from.x, from.y), form.on_face(to.x, to.y));
+        let (a, na) = form.on_face(from.x, from.y);
+        // What the face hides, such as the neck below the chin, stays; what turns away fades.
+        let seen = smooth_step(0.10, 0.40, na.z) * smooth_step(0.012, 0.006, a.distance(p));
+        let to = from.lerp(warp(from), seen);
+        let (b, nb) = form.on_face(to.x, to.y);
         (p + (b - a), (n + nb - na).normalize_or_zero())
     };
     part.positions.iter().zip(&part.normals).map(moved).unzip()
@@ -132,14 +134,21 @@ pub(super) fn head() -> Model {
         for (_, patch) in eyes::patches().iter().filter(|(n, _)| *n == name) {
             for right in [false, true] {
                 rest.append(&patch.placed(&form, eyes::rest, right));
-                for (target, (_, warp)) in targets.iter_mut().zip(TARGETS) {
+                for (target, (what, warp)) in targets.iter_mut().zip(TARGETS) {
+                    // The skin slides under the brows.
+                    let stays = name == "brow" && what == "blink";
+                    let warp = if stays { eyes::rest } else { warp };
                     let moved = patch.placed(&form, warp, right);
                     target.0.extend(moved.positions);
                     target.1.extend(moved.normals);
                 }
             }
         }
-        surfaces.push((morphing(&rest, targets), material));
+        let mut surface = morphing(&rest, targets);
+        // Lashes and brows are strokes already; the iris has a finer line.
+        let width = if name == "iris" { 0.8 } else { 0.0 };
+        surface.line_widths = vec![width; surface.positions.len()];
+        surfaces.push((surface, material));
     }
     let face = model.surfaces("face", &surfaces, &TARGETS.map(|(name, _)| name));
     let face = model.object("face", face, Vec3::ZERO);
@@ -168,4 +177,29 @@ pub(super) fn head() -> Model {
     model.camera(Vec3::new(-0.42, 0.27, 1.02), Vec3::new(0.0, 0.205, 0.0), 24.0);
     model.sun(Vec3::new(0.62, -0.55, -0.60));
     model
+}
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lids and lips move without folding the skin over; only in the corners of closed eyes, behind
+    /// the lashes, some triangles may.
+    #[test]
+    fn skin_does_not_turn_over_when_the_face_moves() {
+        let form = Form::new();
+        let [_, _, _, skin] = bust(&form);
+        for (name, warp) in TARGETS {
+            let (moved, normals) = warped(&form, &skin, warp);
+            let (mut travel, mut folded): (f64, usize) = (0.0, 0);
+            for t in skin.indices.chunks_exact(3) {
+                let [a, b, c] = [0, 1, 2].map(|i| moved[t[i] as usize]);
+                let face = (b - a).cross(c - a).normalize_or_zero();
+                let turned = t.iter().all(|&i| normals[i as usize].dot(face) < -0.5);
+                folded += usize::from(turned);
+                travel = travel.max(skin.positions[t[0] as usize].distance(a));
+            }
+            assert!(travel > 0.004, "{name} moves {travel} m");
+            assert!(folded <= 12, "{name} folds {folded} triangles");
+        }
+    }
 }
