@@ -231,7 +231,7 @@ impl Placed {
                 None => (self.turns[i], self.places[i]),
             };
             let q = DQuat::from_mat3(&turn).normalize();
-            (offset.as_vec3(), q.as_quat().normalize())
+            (offset.as_vec3(), q.as_quat())
         };
         bones.iter().enumerate().map(local).collect()
     }

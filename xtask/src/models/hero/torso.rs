@@ -83,7 +83,7 @@ pub(super) fn torso() -> Solid {
         0.03,
     );
     s.ellipsoid(v(0.055, 1.565, 0.000), v(0.085, 0.040, 0.052), i, 0.035);
-    s.cone(v(0.100, 1.552, 0.012), 0.036, v(0.205, 1.545, 0.010), 0.042, 0.030);
+    s.cone(v(0.100, 1.552, 0.012), 0.036, v(0.205, 1.545, 0.010), 0.040, 0.050);
     // Chest: upper and lower part of each pectoral, running out to the arm.
     let front = v(0.35, 0.12, 1.0);
     belly(&mut s, v(0.000, 1.425, 0.070), v(0.230, 1.505, 0.018), front, (0.066, 0.056), 0.022);
