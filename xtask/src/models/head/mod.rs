@@ -7,7 +7,9 @@ mod hair;
 use glam::{DVec2, DVec3, Vec3};
 
 use super::glb::{MaterialId, Model, Surface, Track};
-use super::sculpt::{Field, Part, Region, imprint, polygonise, relax, remesh, sheet, smooth_step};
+use super::sculpt::{
+    Field, Part, Region, Unwrap, imprint, polygonise, relax, remesh, sheet, smooth_step,
+};
 use eyes::Warp;
 use form::{Form, edge_length};
 
@@ -30,8 +32,18 @@ fn bust(form: &Form) -> [Part; 4] {
     ];
     let mut imprinted = imprint(mesh, form, &regions, &edge_length);
     relax(&mut imprinted, form, &regions, 4);
-    let parts = imprinted.parts(&regions);
+    let parts: Vec<Part> = imprinted.parts(&regions).iter().map(round_the_head).collect();
     parts.try_into().unwrap_or_default()
+}
+
+/// Gives texture coordinates: u goes once round the head, its seam behind; v runs down, 2.5 to
+/// the metre.
+fn round_the_head(part: &Part) -> Part {
+    let place = |_: usize, p: DVec3| {
+        let turn = libm::atan2(p.x, p.z - form::SKULL.z) / std::f64::consts::TAU;
+        DVec2::new(turn + 0.5, (0.40 - p.y) * 2.5)
+    };
+    Unwrap { chart: &|_| 0, place: &place, turn: &|_| 1.0 }.unwrap(part).0
 }
 
 /// Positions and normals of a part of the face when `warp` is on.
@@ -170,6 +182,7 @@ pub(super) fn head() -> Model {
     let rest = |_: DVec3| -1.0;
     let whole = [Region { inside: &rest, surface: &cap, raised: false }];
     let part = imprint(mesh, &cap, &whole, &length).parts(&whole).remove(0);
+    let part = round_the_head(&part);
     let mesh = model.surfaces("hair_cap", &[(surface(&part), hair)], &[]);
     model.object("hair_cap", mesh, Vec3::ZERO);
     let mesh = model.surfaces("hair_locks", &[(surface(&hair::locks()), hair)], &[]);

@@ -10,26 +10,35 @@ use super::Held;
 use super::limb::Limb;
 use super::limbs::{lower_arm, upper_arm, upper_leg};
 use super::skeleton::{
-    CAPE, FINGER_TIPS, HEAD, LOWER_ARM_AT, LOWER_LEG_AT, NECK, RIGHT, SHOULDER, THUMB, UPPER_ARM,
-    UPPER_LEG, mirrored,
+    CAPE, FINGER_TIPS, HEAD, LOWER_ARM_AT, LOWER_LEG_AT, NECK, RIGHT, SHOULDER, THUMB, TOES,
+    UPPER_ARM, UPPER_LEG, mirrored,
 };
 use super::weights::Weights;
+use crate::models::sculpt::Unwrap;
 
 /// What a chart goes round.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Chart {
     Trunk,
     Head,
-    Arm { right: bool },
-    Leg { right: bool },
+    LeftArm,
+    RightArm,
+    LeftLeg,
+    RightLeg,
 }
+
+/// All charts, in their order.
+const CHARTS: [Chart; 6] =
+    [Chart::Trunk, Chart::Head, Chart::LeftArm, Chart::RightArm, Chart::LeftLeg, Chart::RightLeg];
 
 fn chart_of(bone: usize) -> Chart {
     let right = (SHOULDER + RIGHT..CAPE).contains(&bone);
     match if right { bone - RIGHT } else { bone } {
         NECK | HEAD => Chart::Head,
-        UPPER_ARM..=FINGER_TIPS | THUMB => Chart::Arm { right },
-        left if (UPPER_LEG..SHOULDER + RIGHT).contains(&left) => Chart::Leg { right },
+        UPPER_ARM..=FINGER_TIPS | THUMB if right => Chart::RightArm,
+        UPPER_ARM..=FINGER_TIPS | THUMB => Chart::LeftArm,
+        UPPER_LEG..=TOES if right => Chart::RightLeg,
+        UPPER_LEG..=TOES => Chart::LeftLeg,
         _ => Chart::Trunk,
     }
 }
@@ -53,13 +62,13 @@ fn round(limb: &Limb, front: DVec3, p: DVec3) -> (f64, f64) {
 
 fn place(chart: Chart, p: DVec3) -> DVec2 {
     let (q, right) = match chart {
-        Chart::Arm { right: true } | Chart::Leg { right: true } => (mirrored(p), true),
+        Chart::RightArm | Chart::RightLeg => (mirrored(p), true),
         _ => (p, false),
     };
     let (turn, down) = match chart {
         Chart::Trunk => (2.0 * libm::atan2(p.x, p.z + 0.01) / TAU, 2.0 - p.y),
         Chart::Head => (libm::atan2(p.x, p.z + 0.01) / TAU, 2.0 - p.y),
-        Chart::Arm { .. } => {
+        Chart::LeftArm | Chart::RightArm => {
             let (upper, lower) = (upper_arm(), lower_arm());
             let middle = (upper.along + lower.along).normalize();
             if (q - LOWER_ARM_AT).dot(middle) < 0.0 {
@@ -69,7 +78,7 @@ fn place(chart: Chart, p: DVec3) -> DVec2 {
                 (turn, along + upper.length)
             }
         }
-        Chart::Leg { .. } => {
+        Chart::LeftLeg | Chart::RightLeg => {
             // One axis from hip to knee and on down: the shin is nearly in line with the thigh.
             let upper = upper_leg();
             let axis =
@@ -81,25 +90,15 @@ fn place(chart: Chart, p: DVec3) -> DVec2 {
     DVec2::new(if right { -turn } else { turn } + 0.5, 2.0 * down)
 }
 
-/// Gives texture coordinates to every vertex; vertices on a seam become two.
+/// Gives texture coordinates to every vertex.
 pub(super) fn unwrap(held: &mut Held) {
     let Held { part, weights } = held;
-    // Vertices by what they were, their chart and whether they lie past the seam.
-    let mut vertices: BTreeMap<(u32, Chart, bool), u32> = BTreeMap::new();
-    let (old, old_weights) = (std::mem::take(part), std::mem::take(weights));
-    for t in old.indices.chunks_exact(3) {
-        let chart = strongest([t[0], t[1], t[2]].map(|i| &old_weights[i as usize]));
-        let uv = [t[0], t[1], t[2]].map(|i| place(chart, old.positions[i as usize]));
-        let turns = if chart == Chart::Trunk { 2.0 } else { 1.0 };
-        let most = uv[0].x.max(uv[1].x).max(uv[2].x);
-        for (&i, uv) in t.iter().zip(uv) {
-            let past = most - uv.x > turns / 2.0;
-            let index = *vertices.entry((i, chart, past)).or_insert_with(|| {
-                part.uvs.push(if past { uv + DVec2::X * turns } else { uv });
-                weights.push(old_weights[i as usize].clone());
-                part.push(old.positions[i as usize], old.normals[i as usize])
-            });
-            part.indices.push(index);
-        }
-    }
+    let unwrap = Unwrap {
+        chart: &|corners| strongest(corners.map(|i| &weights[i as usize])) as usize,
+        place: &|chart, p| place(CHARTS[chart], p),
+        turn: &|chart| if CHARTS[chart] == Chart::Trunk { 2.0 } else { 1.0 },
+    };
+    let (unwrapped, old) = unwrap.unwrap(part);
+    *weights = old.iter().map(|&i| weights[i as usize].clone()).collect();
+    *part = unwrapped;
 }

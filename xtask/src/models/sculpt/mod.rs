@@ -11,6 +11,7 @@ mod mesh;
 mod polygonise;
 mod remesh;
 mod sweep;
+mod unwrap;
 
 pub(super) use features::{Imprinted, Region, imprint, relax};
 pub(super) use field::{Field, Solid, gradient, smooth_step};
@@ -18,3 +19,4 @@ pub(super) use lock::lock;
 pub(super) use polygonise::polygonise;
 pub(super) use remesh::remesh;
 pub(super) use sweep::{Part, lathe, sheet};
+pub(super) use unwrap::Unwrap;
