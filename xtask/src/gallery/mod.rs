@@ -36,13 +36,12 @@ struct Picture {
     file: String,
 }
 
-/// The scene files that there are, sorted by name.
-fn scenes(root: &Path) -> Result<Vec<PathBuf>> {
-    let folder = root.join("assets/scenes");
+/// The scene files in a folder, sorted by name; none if there is no such folder.
+fn scenes(folder: &Path) -> Result<Vec<PathBuf>> {
     if !folder.is_dir() {
         return Ok(Vec::new());
     }
-    let mut scenes = crate::files_with_extension(&folder, "toml")?;
+    let mut scenes = crate::files_with_extension(folder, "toml")?;
     scenes.retain(|file| name_of(file).ends_with(".scene.toml"));
     Ok(scenes)
 }
@@ -52,7 +51,10 @@ fn draw(root: &Path, folder: &Path, size: &str) -> Result<Vec<Picture>> {
     let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
     adapter::ensure(&genga)?;
     fs::create_dir_all(folder).map_err(Error::io("cannot make the folder", folder))?;
-    let (models, scenes) = (models::files(root)?, scenes(root)?);
+    let models = models::files(root)?;
+    // Sheets show one model many times, turned or in motion, and have sizes of their own.
+    let folders = [root.join("assets/scenes"), root.join("assets/scenes/sheets")];
+    let [scenes, sheets] = [scenes(&folders[0])?, scenes(&folders[1])?];
     let styles = process::output(Command::new(&genga).arg("styles"))?;
     let mut pictures = Vec::new();
     for style in preset_names(&styles) {
@@ -61,16 +63,18 @@ fn draw(root: &Path, folder: &Path, size: &str) -> Result<Vec<Picture>> {
         let short = |path: &Path| path.strip_prefix(root).unwrap_or(path).to_owned();
         let render = |subjects: &[PathBuf], more: &[&str]| {
             let mut render = Command::new(&genga);
-            render.current_dir(root).args(["render", "--style", style, "--size", size]).args(more);
+            render.current_dir(root).args(["render", "--style", style]).args(more);
             render.arg("--output").arg(short(&template));
             process::run(render.args(subjects.iter().map(|path| short(path))))
         };
         // Each of our models has a camera of that name, which shows it as it is meant.
-        render(&models, &["--camera", "camera"])?;
-        if !scenes.is_empty() {
-            render(&scenes, &[])?;
+        render(&models, &["--camera", "camera", "--size", size])?;
+        for (subjects, more) in [(&scenes, ["--size", size].as_slice()), (&sheets, &[])] {
+            if !subjects.is_empty() {
+                render(subjects, more)?;
+            }
         }
-        for subject in models.iter().chain(&scenes) {
+        for subject in models.iter().chain(&scenes).chain(&sheets) {
             let subject = stem(subject);
             let file = format!("{subject}-{style}.png");
             if !folder.join(&file).is_file() {

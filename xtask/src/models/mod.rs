@@ -4,7 +4,10 @@
 //! `assets/models/`, and are in the public domain (CC0).
 
 mod glb;
+mod head;
+mod hero;
 mod scenes;
+mod sculpt;
 mod teapot;
 
 use std::fs;
@@ -21,8 +24,10 @@ pub(crate) const FOLDER: &str = "assets/models";
 type Recipe = (&'static str, fn() -> glb::Model);
 
 /// Every committed model. Each has a camera called `camera`, from which the gallery draws it.
-const MODELS: [Recipe; 3] = [
+const MODELS: [Recipe; 5] = [
     ("cube-before-plane.glb", scenes::cube_before_plane),
+    ("head.glb", head::head),
+    ("hero.glb", hero::hero),
     ("spheres-near-far.glb", scenes::spheres_near_far),
     ("teapot-on-box.glb", scenes::teapot_on_box),
 ];
@@ -113,31 +118,43 @@ mod tests {
                 let (offset, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
                 assert_eq!(offset % 4, 0);
                 let bytes = &binary[offset..offset + length];
-                let width = match accessor["type"].as_str().unwrap() {
-                    "VEC3" => 12,
-                    "VEC2" => 8,
-                    _ if accessor["componentType"] == 5123 => 2,
+                let components = match accessor["type"].as_str().unwrap() {
+                    "SCALAR" => 1,
+                    "VEC2" => 2,
+                    "VEC3" => 3,
+                    "VEC4" => 4,
+                    _ => 16,
+                };
+                let width = match number(&accessor["componentType"]) {
+                    5121 => 1,
+                    5123 => 2,
                     _ => 4,
                 };
-                assert_eq!(number(&accessor["count"]) * width, length);
+                assert_eq!(number(&accessor["count"]) * components * width, length);
                 if let Some(min) = accessor["min"].as_array() {
                     let max = accessor["max"].as_array().unwrap();
                     for (i, float) in bytes.chunks_exact(4).enumerate() {
                         let value = f64::from(f32::from_le_bytes(float.try_into().unwrap()));
-                        let bound = |of: &[serde_json::Value]| of[i % 3].as_f64().unwrap() as f32;
+                        let bound =
+                            |of: &[serde_json::Value]| of[i % components].as_f64().unwrap() as f32;
                         assert!(f64::from(bound(min)) <= value && value <= f64::from(bound(max)));
                     }
                 }
             }
             for mesh in document["meshes"].as_array().unwrap() {
-                let primitive = &mesh["primitives"][0];
-                let at = |of: &serde_json::Value| &document["accessors"][number(of)];
-                let vertices = number(&at(&primitive["attributes"]["POSITION"])["count"]);
-                let view =
-                    &document["bufferViews"][number(&at(&primitive["indices"])["bufferView"])];
-                let (offset, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
-                for index in binary[offset..offset + length].chunks_exact(2) {
-                    assert!(usize::from(u16::from_le_bytes([index[0], index[1]])) < vertices);
+                for primitive in mesh["primitives"].as_array().unwrap() {
+                    let at = |of: &serde_json::Value| &document["accessors"][number(of)];
+                    let vertices = number(&at(&primitive["attributes"]["POSITION"])["count"]);
+                    for attribute in primitive["attributes"].as_object().unwrap().values() {
+                        assert_eq!(number(&at(attribute)["count"]), vertices);
+                    }
+                    let view =
+                        &document["bufferViews"][number(&at(&primitive["indices"])["bufferView"])];
+                    let offset = number(&view["byteOffset"]);
+                    let length = number(&view["byteLength"]);
+                    for index in binary[offset..offset + length].chunks_exact(2) {
+                        assert!(usize::from(u16::from_le_bytes([index[0], index[1]])) < vertices);
+                    }
                 }
             }
         }
