@@ -150,7 +150,7 @@ pub(crate) struct OrbitArgs {
 /// Parts of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LayerName {
-    /// Painted surfaces without lines and background (PNG)
+    /// Painted surfaces without highlights, lines and background (PNG)
     Color,
     /// Distance from the camera in metres (EXR)
     Depth,
@@ -160,6 +160,10 @@ pub(crate) enum LayerName {
     Ids,
     /// Lines alone (PNG)
     Lines,
+    /// Highlights alone (PNG)
+    Highlight,
+    /// Where pixels lie on the drawing of a highlight (EXR)
+    HighlightUv,
 }
 
 impl LayerName {
@@ -171,6 +175,8 @@ impl LayerName {
             Self::Normal => LayerKind::Normal,
             Self::Ids => LayerKind::Ids,
             Self::Lines => LayerKind::Lines,
+            Self::Highlight => LayerKind::Highlight,
+            Self::HighlightUv => LayerKind::HighlightUv,
         }
     }
 }

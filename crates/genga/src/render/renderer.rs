@@ -14,7 +14,7 @@ use super::{
         deform::DeformPass,
         detect::DetectPass,
         gbuffer::GBufferPass,
-        paint::PaintPass,
+        paint::{PaintOutput, PaintPass},
         plain::{PlainPass, PlainTargets},
         reference::ReferencePass,
         strokes::{StrokePass, stroke_group},
@@ -38,7 +38,7 @@ pub struct Renderer {
     candidates: CandidatePass,
     strokes: StrokePass,
     reference: ReferencePass,
-    paint: PaintPass,
+    pub(crate) paint: PaintPass,
     composite: CompositePass,
     plain: PlainPass,
     /// The targets of the last size drawn.
@@ -216,7 +216,7 @@ impl Renderer {
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
-        self.paint.run(device, encoder, prepared, &targets, &aim, timer);
+        self.paint.run(device, encoder, prepared, &targets, &aim, PaintOutput::All, timer);
         targets
     }
 
@@ -234,6 +234,7 @@ impl Renderer {
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
         let tiles = [tile, viewport(&self.device, view, tile)];
         let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
+        prepared.highlights.write(&self.queue, prepared, view, &lights);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
     }

@@ -2,6 +2,7 @@
 
 pub(crate) mod edges;
 pub(crate) mod geometry;
+pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
@@ -13,6 +14,7 @@ use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
     geometry::{Chunk, Geometry, GeometryBuilder},
+    highlights::{HighlightSets, Highlights},
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
@@ -41,11 +43,12 @@ pub struct Prepared {
     pub(crate) lights: Vec<PlacedLight>,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
+    pub(crate) highlights: Highlights,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     draw_values: Vec<Draw>,
     warnings: Vec<String>,
-    node_count: usize,
+    pub(crate) node_count: usize,
 }
 
 /// One chunk of a primitive of a node.
@@ -53,6 +56,8 @@ pub(crate) struct DrawItem {
     pub(crate) chunk: Chunk,
     pub(crate) world: Place,
     pub(crate) material: usize,
+    /// Which set of highlights it carries.
+    pub(crate) highlights: usize,
     pub(crate) double_sided: bool,
     pub(crate) blend: bool,
     pub(crate) mirrored: bool,
@@ -168,6 +173,7 @@ impl Prepared {
         }
         queue.write_buffer(&self.draw_data, 0, bytemuck::cast_slice(&self.draw_values));
         self.lights = lights::placed_lights(scene, pose, &self.style.light);
+        self.highlights.set_pose(pose);
         self.bounds = scene.bounds(pose);
     }
 }
@@ -181,6 +187,7 @@ struct Builder<'a> {
     geometry: GeometryBuilder,
     textures: Textures<'a>,
     looks: Looks<'a>,
+    highlights: HighlightSets<'a>,
     chunks: HashMap<(usize, usize), Vec<Chunk>>,
     materials: Vec<wgpu::BindGroup>,
     material_of: HashMap<(Option<usize>, Option<usize>), usize>,
@@ -210,6 +217,7 @@ impl<'a> Builder<'a> {
             geometry: GeometryBuilder::new(),
             textures: Textures::new(device, queue, scene),
             looks: Looks::new(style),
+            highlights: HighlightSets::new(scene),
             chunks: HashMap::new(),
             materials: Vec::new(),
             material_of: HashMap::new(),
@@ -266,6 +274,7 @@ impl<'a> Builder<'a> {
             };
             let look = self.looks.range(&node.name, &material.name);
             let group = self.material_group(primitive.material, material, &look);
+            let highlights = self.highlights.of(index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
                 self.deforms.push((
@@ -287,6 +296,7 @@ impl<'a> Builder<'a> {
                 self.draws.push(DrawItem {
                     world,
                     material: group,
+                    highlights,
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
@@ -418,6 +428,8 @@ impl<'a> Builder<'a> {
         );
         let deform = self.deform_data(&geometry);
         let strokes = self.stroke_data(&geometry);
+        let (sets, warned) = self.highlights.finish();
+        let highlights = Highlights::new(device, queue, self.layouts, self.scene, sets, self.style);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {
@@ -428,6 +440,7 @@ impl<'a> Builder<'a> {
         }
         let max_width_factor = self.looks.max_width_factor() * self.geometry.max_line_width;
         warnings.extend(self.looks.warnings);
+        warnings.extend(warned);
         Prepared {
             style: self.style.clone(),
             geometry,
@@ -440,6 +453,7 @@ impl<'a> Builder<'a> {
             lights,
             deform,
             strokes,
+            highlights,
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,
