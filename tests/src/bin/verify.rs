@@ -37,16 +37,17 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 4] = [
+    let parts: [Part; 5] = [
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
         ("large-mesh", large_mesh),
+        ("highlight-cost", highlight_cost),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
         eprintln!(
-            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, or none for all"
+            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, highlight-cost, or none for all"
         );
         return ExitCode::FAILURE;
     }
@@ -249,4 +250,24 @@ fn large_mesh(report: &mut Report) {
         picture.places().filter(|&(x, y)| picture.ink(x, y).abs_diff(few.ink(x, y)) > 128).count();
     println!("  pixels of ink that 100,000 triangles have elsewhere: {off}");
     report.check(5 * off < inked, || format!("{off} of {inked} pixels of ink are elsewhere"));
+}
+
+/// What four highlights add to the paint pass.
+fn highlight_cost(report: &mut Report) {
+    use genga::scene::{BuiltInDrawing, Drawing, Highlight};
+    use genga_tests::highlights::{bare_style, lit_scene, paint_times};
+    use glam::Vec3;
+    let _ = &report;
+    for count in 1..=4 {
+        let highlight = |i: usize| Highlight {
+            drawing: Drawing::BuiltIn(BuiltInDrawing::ALL[i]),
+            ..Highlight::default()
+        };
+        let ball = shapes::uv_sphere(128, 64, 1.0);
+        let scene = lit_scene(ball, Vec3::new(1.0, 1.0, 2.0), (0..count).map(highlight).collect());
+        let mut view = orbit_view(&scene, &Orbit::default(), [640, 480]);
+        view.supersample = 1;
+        let [plain, highlit] = paint_times(&scene, &bare_style(), &view, 21);
+        println!("  {count} on the whole ball: {plain:.2} ms, {highlit:.2} ms, {:.3}", highlit / plain);
+    }
 }

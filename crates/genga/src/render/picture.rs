@@ -241,7 +241,7 @@ impl Renderer {
                 }
                 if wanted != painted {
                     let off = &mut Timer::off();
-                    self.paint.run(device, encoder, prepared, &targets, &aim, wanted, off);
+                    self.paint.run(device, encoder, prepared, &targets, (&aim, wanted), off);
                     painted = wanted;
                 }
             };

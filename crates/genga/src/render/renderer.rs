@@ -216,7 +216,7 @@ impl Renderer {
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
-        self.paint.run(device, encoder, prepared, &targets, &aim, PaintOutput::All, timer);
+        self.paint.run(device, encoder, prepared, &targets, (&aim, PaintOutput::All), timer);
         targets
     }
 

@@ -51,8 +51,7 @@ impl PaintPass {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         targets: &Targets,
-        aim: &Aim,
-        output: PaintOutput,
+        (aim, output): (&Aim, PaintOutput),
         timer: &mut Timer,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -207,8 +207,7 @@ fn slope(beyond: Option<(f64, f64, KeyInterpolation)>, here: (f64, f64), there: 
     let Some((at, place, _)) = beyond else { return 0.0 };
     let (length_a, length_b) = ((here.0 - at).abs(), (there.0 - here.0).abs());
     let (a, b) = ((here.1 - place) / (here.0 - at), (there.1 - here.1) / (there.0 - here.0));
-    // Written so that NaN gives 0, too.
-    if !(a * b > 0.0) {
+    if a * b <= 0.0 {
         return 0.0;
     }
     let (weight_a, weight_b) = (2.0 * length_b + length_a, length_b + 2.0 * length_a);
