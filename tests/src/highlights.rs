@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use genga::render::{Gpu, GpuOptions, Picture, Renderer, View, Workload};
+use genga::render::{Gpu, GpuOptions, LayerKind, Picture, Renderer, View, Workload};
 use genga::scene::{
-    AngleKey, FreeKey, FreePlacement, Highlight, KeyInterpolation, Moment, PanoramaPlacement,
+    AngleKey, FreeKey, FreePlacement, Highlight, KeyInterpolation, Moment, PanoramaPlacement, Pose,
     Primitive, Scene,
 };
 use genga::shapes;
@@ -12,6 +12,7 @@ use genga::style::Style;
 use glam::{DMat3, DQuat, DVec2, DVec3, Vec2, Vec3};
 
 use crate::scenes::{Builder, style};
+use crate::{Pixels as _, shared};
 
 /// Random numbers by a linear congruence: the same in every run.
 #[derive(Clone, Debug)]
@@ -254,11 +255,7 @@ fn upright(d: DVec3) -> DMat3 {
 
 /// Coordinates on the drawing of a reflected direction, both in the frame.
 #[must_use]
-pub fn drawing_coordinates(
-    highlight: &Highlight,
-    moment: &Moment,
-    reflected: DVec3,
-) -> DVec2 {
+pub fn drawing_coordinates(highlight: &Highlight, moment: &Moment, reflected: DVec3) -> DVec2 {
     use genga::scene::Placement;
     let size = highlight.size.as_dvec2();
     let angle = f64::from(highlight.angle);
@@ -277,8 +274,10 @@ pub fn drawing_coordinates(
             let turned = DVec2::from_angle(-angle - place.rotation).rotate(flat);
             let u = turned / ((0.25 * size).map(f64::tan) * place.scale);
             let u = u - place.split * u.map(|x| if x < 0.0 { -1.0 } else { 1.0 });
-            let sine = (2.0 * u.y.atan2(u.x)).sin();
-            u * (1.0 - place.square * (1.0 - 0.5_f64.sqrt()) * sine.powi(4))
+            // On rays from the middle a circle's points move out to the square round it.
+            let angle = u.y.atan2(u.x);
+            let inwards = angle.cos().abs().max(angle.sin().abs());
+            u * (1.0 - place.square + place.square * inwards)
         }
     }
 }
@@ -341,8 +340,7 @@ pub fn overlap(a: &[bool], b: &[bool]) -> f64 {
 /// Where a picture's highlight layer covers at least half of a pixel.
 #[must_use]
 pub fn covered(picture: &Picture) -> Vec<bool> {
-    use crate::Pixels as _;
-    let bytes = picture.bytes(genga::render::LayerKind::Highlight);
+    let bytes = picture.bytes(LayerKind::Highlight);
     bytes.as_chunks::<4>().0.iter().map(|texel| texel[3] >= 128).collect()
 }
 
@@ -375,4 +373,73 @@ pub fn paint_times(scene: &Scene, style: &Style, view: &View, runs: usize) -> [f
         times.sort_by(f64::total_cmp);
         times[times.len() / 2]
     })
+}
+
+/// What [`put_everywhere`] finds.
+#[derive(Clone, Copy, Debug)]
+pub struct Puts {
+    /// Pixels that a highlight was put at.
+    pub tried: usize,
+    /// Farthest from the wanted pixel that a drawing's middle landed.
+    pub worst_px: f64,
+}
+
+/// Puts a scene's first highlight at `count` random pixels of its surface, draws each time, and
+/// measures how far from that pixel the drawing's middle lies.
+///
+/// # Panics
+/// If the renderer reports an error, or a pixel cannot be used although it shows the surface.
+#[must_use]
+pub fn put_everywhere(scene: &Scene, view: &View, count: usize, seed: u64) -> Puts {
+    let shared = shared();
+    let _turn = shared.turn();
+    let renderer = &shared.renderer;
+    let view = &View { supersample: 1, ..*view };
+    let mut prepared = renderer.prepare(scene, &bare_style()).expect("a scene");
+    let pose = Pose::rest(scene);
+    let original = prepared.highlights()[0].clone();
+    let mut random = Random(seed);
+    let mut puts = Puts { tried: 0, worst_px: 0.0 };
+    while puts.tried < count {
+        let [width, height] = view.size;
+        let x = random.between(4.0, f64::from(width) - 4.0) as u32;
+        let y = random.between(4.0, f64::from(height) - 4.0) as u32;
+        let pixel = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+        // The surface must go on round the pixel, so that its neighbours tell the gradient.
+        let round = [(0.0, 0.0), (2.0, 0.0), (-2.0, 0.0), (0.0, 2.0), (0.0, -2.0)];
+        let first = round.map(|(dx, dy)| {
+            let [origin, direction] = view.ray(pixel + Vec2::new(dx, dy));
+            let hit = scene.pick(&pose, origin, direction)?;
+            let mesh = &scene.meshes[scene.nodes[hit.node].mesh?];
+            let material = mesh.primitives[hit.primitive].material?;
+            let is_its = original.materials.matches(&scene.materials[material].name);
+            (is_its && hit.normal.dot(-direction) > 0.2).then_some(hit)
+        });
+        let [Some(middle), others @ ..] = first else { continue };
+        let goes_on = |hit: &genga::scene::Hit| {
+            (hit.node, hit.primitive) == (middle.node, middle.primitive)
+                && hit.normal.dot(middle.normal) > 0.8
+        };
+        if !others.iter().all(|hit| hit.as_ref().is_some_and(goes_on)) {
+            continue;
+        }
+        prepared.set_highlight(0, original.clone()).expect("it was valid");
+        prepared.put_highlight(0, scene, &pose, view, pixel).expect("there is a surface");
+        let layers = [LayerKind::HighlightUv];
+        let mut quiet = |_, _| {};
+        let picture = renderer.picture(&prepared, view, &layers, &mut quiet);
+        let picture = pollster::block_on(picture).expect("a picture");
+        let uv = picture.floats(LayerKind::HighlightUv);
+        let at = |x: u32, y: u32| {
+            let i = 3 * (y * width + x) as usize;
+            DVec2::new(f64::from(uv[i]), f64::from(uv[i + 1]))
+        };
+        // Where the coordinates would be 0, by their gradient here.
+        let (dx, dy) = (0.5 * (at(x + 1, y) - at(x - 1, y)), 0.5 * (at(x, y + 1) - at(x, y - 1)));
+        let jacobian = glam::DMat2::from_cols(dx, dy);
+        let off = (jacobian.inverse() * at(x, y)).length();
+        puts.worst_px = puts.worst_px.max(off);
+        puts.tried += 1;
+    }
+    puts
 }

@@ -268,6 +268,9 @@ fn highlight_cost(report: &mut Report) {
         let mut view = orbit_view(&scene, &Orbit::default(), [640, 480]);
         view.supersample = 1;
         let [plain, highlit] = paint_times(&scene, &bare_style(), &view, 21);
-        println!("  {count} on the whole ball: {plain:.2} ms, {highlit:.2} ms, {:.3}", highlit / plain);
+        println!(
+            "  {count} on the whole ball: {plain:.2} ms, {highlit:.2} ms, {:.3}",
+            highlit / plain
+        );
     }
 }

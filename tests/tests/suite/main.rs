@@ -5,6 +5,8 @@ mod color;
 mod edges;
 mod errors;
 mod geometry;
+mod highlight_surfaces;
+mod highlights;
 mod lines;
 mod outlines;
 mod pipelines;

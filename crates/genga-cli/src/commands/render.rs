@@ -6,6 +6,7 @@ use crate::args::{FrameRange, RenderArgs};
 use crate::console::{Console, Progress};
 use crate::failure::{Failure, Outcome};
 use crate::gpu::Graphics;
+use crate::keys;
 use crate::names::Names;
 use crate::save::Saver;
 use crate::source::{self, Source};
@@ -124,6 +125,9 @@ impl Shoot<'_> {
             let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
             graphics.check(&source.name, posed)?;
             let view = view::view(&args.picture, source, self.camera(&pose, &points)?);
+            if args.dump_keys {
+                keys::print(&source.name, frame, &prepared, &view)?;
+            }
             let step = &mut |done, tiles| progress.set(number, done, tiles);
             let picture = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
             saver.save(&picture, &target)?;

@@ -164,7 +164,7 @@ struct Highlight {
     mask: i32,
     middle: vec3f,
     normal_map: i32,
-    drawing_from_place: vec4f,
+    drawing_from_angles: vec4f,
     panorama: vec2f,
     split: vec2f,
     square: f32,
@@ -313,21 +313,30 @@ fn display_from_linear(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.0031308));
 }
 
-fn drawing_coordinates(i: u32, reflected: vec3f) -> vec2f {
-    let r = vec3f(dot(reflected, highlights.items[i].right), dot(reflected, highlights.items[i].up), dot(reflected, highlights.items[i].middle));
-    var place = r.xy / max(1.0 + r.z, 0.0001);
+fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
+    let r = vec3f(dot(highlights.items[i].right, reflected.xyz), dot(highlights.items[i].up, reflected.xyz), dot(highlights.items[i].middle, reflected.xyz));
+    var u = r.xy / max(reflected.w + r.z, 1e-30);
     if (ON_PANORAMA && (highlights.items[i].flags & HIGHLIGHT_ON_PANORAMA) != 0u) {
         let yaw = atan2(r.x, r.z) - highlights.items[i].panorama.x;
         let pitch = atan2(-r.y, length(r.xz)) - highlights.items[i].panorama.y;
-        place = vec2f(yaw - TAU * round(yaw / TAU), -pitch);
+        let m = highlights.items[i].drawing_from_angles;
+        u = m.xy * (yaw - TAU * round(yaw / TAU)) - m.zw * pitch;
     }
-    let m = highlights.items[i].drawing_from_place;
-    var u = clamp(m.xy * place.x + m.zw * place.y, vec2f(-FAR_OUTSIDE), vec2f(FAR_OUTSIDE));
-    u -= highlights.items[i].split * select(vec2f(-1.0), vec2f(1.0), u >= vec2f(0.0));
-    let squares = u * u;
-    let length_squared = max(squares.x + squares.y, 1e-12);
-    let sine = 4.0 * squares.x * squares.y / (length_squared * length_squared);
-    return u * (1.0 - highlights.items[i].square * sine * sine);
+    if (IS_RESHAPED) {
+        u = clamp(u, vec2f(-FAR_OUTSIDE), vec2f(FAR_OUTSIDE));
+        u -= highlights.items[i].split * select(vec2f(-1.0), vec2f(1.0), u >= vec2f(0.0));
+        let corner = max(abs(u.x), abs(u.y)) / max(length(u), 1e-6);
+        u *= mix(1.0, corner, highlights.items[i].square);
+    }
+    return u;
+}
+
+fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
+    let u = drawing_coordinates(i, reflected);
+    let uv = u * vec2f(0.5, -0.5) / FIELD_EXTENT + 0.5;
+    let inside = textureSampleLevel(drawings, clamped, uv, highlights.items[i].drawing, 0.0).x;
+    let beyond = max(max(abs(u.x), abs(u.y)) - FIELD_EXTENT, 0.0);
+    return vec3f(u, min(inside + beyond, FAR_OUTSIDE));
 }
 
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
@@ -346,37 +355,22 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
     var distances = vec4f(FAR_OUTSIDE);
     if (HIGHLIGHTS > 0u) {
-        distances.x = highlight_lookup(0u, p_in_world, normal, to_eye).z;
-    }
-    if (HIGHLIGHTS > 1u) {
-        distances.y = highlight_lookup(1u, p_in_world, normal, to_eye).z;
-    }
-    if (HIGHLIGHTS > 2u) {
-        distances.z = highlight_lookup(2u, p_in_world, normal, to_eye).z;
-    }
-    if (HIGHLIGHTS > 3u) {
-        distances.w = highlight_lookup(3u, p_in_world, normal, to_eye).z;
+        let first = reflected_view(0u, p_in_world, normal, to_eye);
+        distances.x = drawing_lookup(0u, first).z;
+        if (HIGHLIGHTS > 1u) {
+            distances.y = next_lookup(1u, first, p_in_world, normal, to_eye);
+        }
+        if (HIGHLIGHTS > 2u) {
+            distances.z = next_lookup(2u, first, p_in_world, normal, to_eye);
+        }
+        if (HIGHLIGHTS > 3u) {
+            distances.w = next_lookup(3u, first, p_in_world, normal, to_eye);
+        }
     }
     let dx = dpdx(distances);
     let dy = dpdy(distances);
     let width = sqrt(dx * dx + dy * dy);
     return saturate(0.5 - distances / max(width, vec4f(1e-6)));
-}
-
-fn highlight_lookup(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec3f {
-    let gamma = highlights.items[i].gamma;
-    let blended = gamma * proxy_normal(i, p_in_world) + (1.0 - gamma) * normal;
-    let length_squared = dot(blended, blended);
-    var n = normal;
-    if (length_squared > 1e-12) {
-        n = blended * inverseSqrt(length_squared);
-    }
-    let reflected = 2.0 * dot(n, to_eye) * n - to_eye;
-    let u = drawing_coordinates(i, reflected);
-    let uv = u * vec2f(0.5, -0.5) / FIELD_EXTENT + 0.5;
-    let inside = textureSampleLevel(drawings, clamped, uv, highlights.items[i].drawing, 0.0).x;
-    let beyond = length(max(abs(u) - FIELD_EXTENT, vec2f(0.0)));
-    return vec3f(u, min(inside + beyond, FAR_OUTSIDE));
 }
 
 fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
@@ -489,6 +483,13 @@ fn material_sample(in: Surface) -> MaterialSample {
     return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
+fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
+    if (SHARE_PROXY) {
+        return drawing_lookup(i, first).z;
+    }
+    return drawing_lookup(i, reflected_view(i, p_in_world, normal, to_eye)).z;
+}
+
 fn octahedral_unpack(bits: u32) -> vec3f {
     let p = unpack2x16snorm(bits);
     var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
@@ -504,15 +505,20 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
 }
 
 fn proxy_normal(i: u32, p_in_world: vec3f) -> vec3f {
-    let q = p_in_world - highlights.items[i].center;
-    let axis = highlights.items[i].axis;
-    let along = clamp(dot(q, axis), 0.0, highlights.items[i].axis_length);
-    let d = vec4f(q - axis * along, 1.0);
-    var n = vec3f(dot(highlights.items[i].normals_x, d), dot(highlights.items[i].normals_y, d), dot(highlights.items[i].normals_z, d));
-    if (HAS_NORMAL_MAP && highlights.items[i].normal_map >= 0) {
-        n = mapped_normal(i, n);
+    var q = p_in_world - highlights.items[i].center;
+    if (HAS_AXIS) {
+        let axis = highlights.items[i].axis;
+        q -= axis * clamp(dot(q, axis), 0.0, highlights.items[i].axis_length);
     }
-    return n * inverseSqrt(max(dot(n, n), 1e-30));
+    if (!HAS_MATRIX) {
+        return q;
+    }
+    let d = vec4f(q, 1.0);
+    let n = vec3f(dot(highlights.items[i].normals_x, d), dot(highlights.items[i].normals_y, d), dot(highlights.items[i].normals_z, d));
+    if (HAS_NORMAL_MAP && highlights.items[i].normal_map >= 0) {
+        return mapped_normal(i, n);
+    }
+    return n;
 }
 
 fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
@@ -549,6 +555,16 @@ fn ramp_picture(row: u32, t: f32) -> vec3f {
     let left = u32(floor(x));
     let right = min(left + 1u, width - 1u);
     return mix(textureLoad(ramp_pictures, vec2u(left, row), 0).rgb, textureLoad(ramp_pictures, vec2u(right, row), 0).rgb, x - floor(x));
+}
+
+fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
+    var n = proxy_normal(i, p_in_world);
+    if (BLENDS_NORMALS) {
+        let gamma = highlights.items[i].gamma;
+        n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
+    }
+    let n_squared = dot(n, n);
+    return vec4f(2.0 * dot(n, to_eye) * n - n_squared * to_eye, n_squared);
 }
 
 fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
@@ -674,7 +690,7 @@ fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
     let color = highlights.items[i].color;
     let strength = color.a * coverage;
     let alpha = mix(below.a, 1.0, strength);
-    if ((highlights.items[i].flags & HIGHLIGHT_REPLACES) != 0u) {
+    if (REPLACES && (highlights.items[i].flags & HIGHLIGHT_REPLACES) != 0u) {
         return vec4f(mix(below.rgb, color.rgb, strength), alpha);
     }
     let added = min(below.rgb + color.rgb * strength, vec3f(alpha));
@@ -706,7 +722,8 @@ fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) ->
         if (HIGHLIGHTS == 0u) {
             return vec4f(0.0);
         }
-        return vec4f(highlight_lookup(0u, in.p_in_world, normal, eye), 1.0);
+        let found = drawing_lookup(0u, reflected_view(0u, in.p_in_world, normal, eye));
+        return vec4f(clamp(found, vec3f(-10000.0), vec3f(10000.0)), 1.0);
     }
     if (OUTPUT == OUTPUT_HIGHLIGHT) {
         color = vec4f(0.0);
@@ -780,12 +797,24 @@ fn paint_vertex(in: VertexInput) -> Surface {
     return surface_from_vertex(in, frame.paint_scale);
 }
 
+override BLENDS_NORMALS: bool = false;
+
+override HAS_AXIS: bool = false;
+
 override HAS_MASK: bool = false;
+
+override HAS_MATRIX: bool = false;
 
 override HAS_NORMAL_MAP: bool = false;
 
 override HIGHLIGHTS: u32 = 0u;
 
+override IS_RESHAPED: bool = false;
+
 override ON_PANORAMA: bool = false;
 
 override OUTPUT: u32 = 0u;
+
+override REPLACES: bool = false;
+
+override SHARE_PROXY: bool = false;

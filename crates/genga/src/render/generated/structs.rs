@@ -311,7 +311,7 @@ pub(crate) struct Highlight {
     pub(crate) mask: i32,
     pub(crate) middle: glam::Vec3,
     pub(crate) normal_map: i32,
-    pub(crate) drawing_from_place: glam::Vec4,
+    pub(crate) drawing_from_angles: glam::Vec4,
     pub(crate) panorama: glam::Vec2,
     pub(crate) split: glam::Vec2,
     pub(crate) square: f32,
@@ -376,8 +376,8 @@ const _: () = assert!(
     "offset of Highlight.normal_map does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Highlight, drawing_from_place) == 128,
-    "offset of Highlight.drawing_from_place does not match WGSL"
+    std::mem::offset_of!(Highlight, drawing_from_angles) == 128,
+    "offset of Highlight.drawing_from_angles does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Highlight, panorama) == 144,

@@ -33,7 +33,13 @@ pub(crate) struct HighlightVariant {
     /// Highlights of the block that are drawn.
     pub(crate) count: u32,
     pub(crate) on_panorama: bool,
+    pub(crate) share_proxy: bool,
+    pub(crate) has_axis: bool,
+    pub(crate) has_matrix: bool,
     pub(crate) has_normal_map: bool,
+    pub(crate) blends_normals: bool,
+    pub(crate) is_reshaped: bool,
+    pub(crate) replaces: bool,
     pub(crate) has_mask: bool,
     /// An `OUTPUT_*` of `paint.wesl`.
     pub(crate) output: u32,
@@ -113,11 +119,18 @@ impl SurfacePipelines {
             _ => (&self.layout, self.fragment_entry),
         };
         let highlights = variant.highlights.unwrap_or_default();
+        let yes = |on: bool| f64::from(u8::from(on));
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
-            ("ON_PANORAMA", f64::from(u8::from(highlights.on_panorama))),
-            ("HAS_NORMAL_MAP", f64::from(u8::from(highlights.has_normal_map))),
-            ("HAS_MASK", f64::from(u8::from(highlights.has_mask))),
+            ("ON_PANORAMA", yes(highlights.on_panorama)),
+            ("SHARE_PROXY", yes(highlights.share_proxy)),
+            ("HAS_AXIS", yes(highlights.has_axis)),
+            ("HAS_MATRIX", yes(highlights.has_matrix)),
+            ("HAS_NORMAL_MAP", yes(highlights.has_normal_map)),
+            ("BLENDS_NORMALS", yes(highlights.blends_normals)),
+            ("IS_RESHAPED", yes(highlights.is_reshaped)),
+            ("REPLACES", yes(highlights.replaces)),
+            ("HAS_MASK", yes(highlights.has_mask)),
             ("OUTPUT", f64::from(highlights.output)),
         ];
         let constants = if variant.highlights.is_some() { &constants[..] } else { &[] };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{Affine3A, DMat2, DVec2, Mat3, Vec2, Vec3, Vec4};
+use glam::{Affine3A, DMat2, DVec2, Mat2, Mat3, Vec2, Vec3, Vec4};
 
 use super::{Prepared, lights::PlacedLight, looks::in_blend_space};
 use crate::render::{
@@ -215,12 +215,28 @@ impl Highlights {
 
     /// What the pipelines of a set are specialised for.
     pub(crate) fn variant(&self, set: usize) -> HighlightVariant {
-        let mut variant = HighlightVariant::default();
-        for &index in self.sets.get(set).into_iter().flatten() {
+        let indices = self.sets.get(set).map_or(&[][..], Vec::as_slice);
+        let mut variant = HighlightVariant { share_proxy: true, ..HighlightVariant::default() };
+        for &index in indices {
             let (highlight, layers) = (&self.items[index], self.layers[index]);
+            let first = &self.items[indices[0]];
             variant.count += 1;
-            variant.on_panorama |= matches!(highlight.placement, Placement::Panorama(_));
+            variant.share_proxy &= highlight.proxy == first.proxy
+                && highlight.node == first.node
+                && highlight.gamma == first.gamma;
+            match &highlight.placement {
+                Placement::Panorama(_) => variant.on_panorama = true,
+                Placement::Free(free) => {
+                    variant.is_reshaped |=
+                        free.keys.iter().any(|key| key.split != Vec2::ZERO || key.square != 0.0);
+                }
+            }
+            variant.has_axis |= matches!(highlight.proxy, Proxy::Capsule { .. });
+            let is_round = matches!(highlight.proxy, Proxy::Sphere { .. } | Proxy::Capsule { .. });
+            variant.has_matrix |= !(is_round && is_evenly_scaled(&self.world_from_node[index]));
             variant.has_normal_map |= layers.normal_map >= 0;
+            variant.blends_normals |= highlight.gamma < 1.0;
+            variant.replaces |= highlight.blend == HighlightBlend::Replace;
             variant.has_mask |= layers.mask >= 0 || highlight.tone != HighlightTone::All;
         }
         variant
@@ -295,8 +311,14 @@ impl Highlights {
         let (highlight, layers) = (&self.items[index], self.layers[index]);
         let placed = highlight.placement.evaluate(moment);
         let shape = ProxyShape::new(&highlight.proxy, &frame.world_from_node);
-        let [x, y, z] = rows(shape.normals);
         let axes = frame.world_from_frame * placed.axes.as_mat3();
+        let [x, y, z] = rows(shape.normals);
+        let [right, up] = [axes.x_axis, axes.y_axis];
+        let m = drawing_from_place(highlight, &placed);
+        let [right, up] = match placed.panorama {
+            Some(_) => [right, up],
+            None => [m.x_axis.x * right + m.y_axis.x * up, m.x_axis.y * right + m.y_axis.y * up],
+        };
         let [yaw, pitch] = placed.panorama.unwrap_or_default();
         let mut flags = 0;
         let mut set = |condition: bool, flag: u32| flags |= if condition { flag } else { 0 };
@@ -314,16 +336,16 @@ impl Highlights {
             normals_x: x.extend(shape.offset.x),
             normals_y: y.extend(shape.offset.y),
             normals_z: z.extend(shape.offset.z),
-            right: axes.x_axis,
+            right,
             drawing: layers.drawing,
-            up: axes.y_axis,
+            up,
             mask: layers.mask,
             middle: axes.z_axis,
             normal_map: layers.normal_map,
-            drawing_from_place: drawing_from_place(highlight, &placed),
+            drawing_from_angles: Vec4::new(m.x_axis.x, m.x_axis.y, m.y_axis.x, m.y_axis.y),
             panorama: Vec2::new(yaw as f32, pitch as f32),
             split: Vec2::new(placed.split[0] as f32, placed.split[1] as f32),
-            square: (placed.square.clamp(0.0, 1.0) * SQUARE) as f32,
+            square: placed.square.clamp(0.0, 1.0) as f32,
             flags,
             reserved_0: 0,
             reserved_1: 0,
@@ -332,21 +354,23 @@ impl Highlights {
     }
 }
 
-/// How far a circle's diagonals move out until it is a square: 1 − 1/√2.
-const SQUARE: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-
 /// Turns and scales coordinates about the middle to those of the drawing. Stereographic ones are
 /// tangents of half the angle to the middle, those of a panorama are angles.
-fn drawing_from_place(highlight: &Highlight, placed: &Placed) -> Vec4 {
+fn drawing_from_place(highlight: &Highlight, placed: &Placed) -> Mat2 {
     let half = highlight.size.as_dvec2().map(|size| {
         let size = size.clamp(1e-4, 6.1);
         if placed.panorama.is_some() { 0.5 * size } else { (0.25 * size).tan() }
     });
     let half = half * DVec2::from(placed.scale).map(|scale| scale.clamp(1e-4, 1e4));
     let turn = DMat2::from_angle(-(placed.rotation + f64::from(highlight.angle)));
-    let m = DMat2::from_diagonal(1.0 / half) * turn;
-    let [a, b, c, d] = m.to_cols_array().map(|x| x as f32);
-    Vec4::new(a, b, c, d)
+    (DMat2::from_diagonal(1.0 / half) * turn).as_mat2()
+}
+
+/// Whether balls stay balls.
+fn is_evenly_scaled(m: &Affine3A) -> bool {
+    let gram = Mat3::from(m.matrix3.transpose() * m.matrix3);
+    let even = Mat3::from_diagonal(Vec3::splat(gram.x_axis.x));
+    gram.abs_diff_eq(even, 1e-4 * gram.x_axis.x.abs())
 }
 
 fn rows(m: Mat3) -> [Vec3; 3] {

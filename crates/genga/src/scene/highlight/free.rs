@@ -35,7 +35,7 @@ pub struct FreeKey {
     pub scale: Vec2,
     /// How far the halves are moved apart along both axes, in halves of the drawing's side.
     pub split: Vec2,
-    /// How square the drawing is, in [0, 1].
+    /// How far the drawing is stretched out into its corners, in [0, 1]: at 1 a disc is a square.
     pub square: f32,
     /// How its values go on towards the other keys.
     pub interpolation: KeyInterpolation,

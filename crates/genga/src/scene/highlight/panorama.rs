@@ -33,6 +33,8 @@ pub struct AngleKey {
 
 /// Keys nearer than this (radians) are of the same moment.
 const SAME: f64 = 1e-5;
+/// More than the rounding of an angle to single precision.
+const ROUNDING: f64 = 1e-6;
 
 impl Default for PanoramaPlacement {
     fn default() -> Self {
@@ -188,6 +190,10 @@ fn curve(keys: &[AngleKey], at: f64, period: Option<f64>) -> Option<f64> {
         return Some(f64::from(first.place));
     };
     let Some((at1, place1, _)) = key(next) else { return Some(place0) };
+    // A key holds at its own angle, which is rounded to single precision.
+    if at1 - at < ROUNDING {
+        return Some(place1);
+    }
     let length = at1 - at0;
     let u = if length > 0.0 { ((at - at0) / length).clamp(0.0, 1.0) } else { 0.0 };
     Some(match interpolation {
