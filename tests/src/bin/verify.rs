@@ -37,17 +37,18 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 5] = [
+    let parts: [Part; 6] = [
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
         ("large-mesh", large_mesh),
+        ("highlights", highlights),
         ("highlight-cost", highlight_cost),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
         eprintln!(
-            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, highlight-cost, or none for all"
+            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, highlights, highlight-cost, or none for all"
         );
         return ExitCode::FAILURE;
     }
@@ -252,25 +253,12 @@ fn large_mesh(report: &mut Report) {
     report.check(5 * off < inked, || format!("{off} of {inked} pixels of ink are elsewhere"));
 }
 
-/// What four highlights add to the paint pass.
+/// Where highlights stand, and what shape they have.
+fn highlights(report: &mut Report) {
+    genga_tests::highlight_proofs::places(&mut |holds, fault| report.check(holds, || fault));
+}
+
+/// What highlights cost.
 fn highlight_cost(report: &mut Report) {
-    use genga::scene::{BuiltInDrawing, Drawing, Highlight};
-    use genga_tests::highlights::{bare_style, lit_scene, paint_times};
-    use glam::Vec3;
-    let _ = &report;
-    for count in 1..=4 {
-        let highlight = |i: usize| Highlight {
-            drawing: Drawing::BuiltIn(BuiltInDrawing::ALL[i]),
-            ..Highlight::default()
-        };
-        let ball = shapes::uv_sphere(128, 64, 1.0);
-        let scene = lit_scene(ball, Vec3::new(1.0, 1.0, 2.0), (0..count).map(highlight).collect());
-        let mut view = orbit_view(&scene, &Orbit::default(), [640, 480]);
-        view.supersample = 1;
-        let [plain, highlit] = paint_times(&scene, &bare_style(), &view, 21);
-        println!(
-            "  {count} on the whole ball: {plain:.2} ms, {highlit:.2} ms, {:.3}",
-            highlit / plain
-        );
-    }
+    genga_tests::highlight_proofs::cost(&mut |holds, fault| report.check(holds, || fault));
 }

@@ -357,7 +357,10 @@ fn odd_numbers_give_a_sensible_picture() {
         (
             "a drawing opposite to its light",
             Highlight {
-                placement: keyed(vec![FreeKey { offset: Vec2::new(3.141_592_7, 0.0), ..key }]),
+                placement: keyed(vec![FreeKey {
+                    offset: Vec2::new(std::f32::consts::PI, 0.0),
+                    ..key
+                }]),
                 ..base()
             },
         ),

@@ -6,8 +6,9 @@ use genga::scene::{
     Placement, Pose, Proxy, Scene, direction_of,
 };
 use genga::shapes;
+use genga_tests::highlight_proofs::placement_errors;
 use genga_tests::highlights::{
-    Random, bare_style, drawing_coordinates, free_place, lit_scene, panorama_place, put_everywhere,
+    Random, bare_style, drawing_coordinates, free_place, lit_scene, put_everywhere,
 };
 use genga_tests::{Eye, Pixels, draw_layers, ortho_view, perspective_view};
 use glam::{Affine3A, DVec2, DVec3, Quat, Vec2, Vec3};
@@ -19,27 +20,16 @@ fn angle(a: DVec3, b: DVec3) -> f64 {
     a.cross(b).length().atan2(a.dot(b))
 }
 
-fn wrapped(angle: f64) -> f64 {
-    (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
-}
-
 #[test]
 fn placement_is_that_of_the_formulas_within_half_a_pixel_of_the_panorama() {
-    let mut random = Random(7);
-    let mut worst = [0.0_f64; 2];
-    for _ in 0..10_000 {
-        let moment = random.moment();
-        let panorama = random.panorama_keys(5);
-        let expected = panorama_place(&panorama, &moment);
-        let placed = Placement::Panorama(panorama).evaluate(&moment);
-        let found = placed.panorama.expect("a panorama");
-        for (found, expected) in found.into_iter().zip(expected) {
-            worst[0] = worst[0].max(wrapped(found - expected).abs());
-        }
-        let free = random.free_keys(5);
+    let worst = placement_errors(10_000, 7);
+    assert!(worst.iter().all(|&px| px <= 0.5), "{worst:?} pixels");
+    // What blends beside the place.
+    let mut random = Random(13);
+    for _ in 0..1000 {
+        let (moment, free) = (random.moment(), random.free_keys(5));
         let expected = free_place(&free, &moment);
         let placed = Placement::Free(free).evaluate(&moment);
-        worst[1] = worst[1].max(angle(placed.middle(), expected.axes.z_axis));
         let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-5, "{placed:?}, {expected:?}");
         close(placed.rotation, expected.rotation);
         close(placed.square, expected.square);
@@ -48,8 +38,6 @@ fn placement_is_that_of_the_formulas_within_half_a_pixel_of_the_panorama() {
             close(placed.split[k], expected.split[k]);
         }
     }
-    let worst = worst.map(|angle| angle / PIXEL);
-    assert!(worst.iter().all(|&px| px <= 0.5), "{worst:?} pixels");
 }
 
 #[test]

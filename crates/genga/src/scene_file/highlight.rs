@@ -66,6 +66,10 @@ pub struct HighlightEntry {
     /// Direction where the drawing is upright along the node's +Y; +Z by default. Without
     /// 'panorama' only.
     pub front: Option<[f32; 3]>,
+    /// The drawing is level everywhere round the node's Y axis, as a ring on hair is, instead of
+    /// turned the shortest way from 'front'.
+    #[serde(default)]
+    pub level: bool,
     /// Keys for directions of light and view; without any the drawing stands at the light's mirror
     /// direction.
     #[serde(default, deserialize_with = "keys")]
@@ -270,8 +274,9 @@ impl HighlightEntry {
     /// What the schema cannot say.
     fn check(&self) -> Result<(), String> {
         if let Some(panorama) = &self.panorama {
-            if !self.key.is_empty() || self.front.is_some() {
-                return Err("must not have 'panorama' together with 'key' or 'front'".to_owned());
+            if !self.key.is_empty() || self.front.is_some() || self.level {
+                let message = "must not have 'panorama' together with 'key', 'front' or 'level'";
+                return Err(message.to_owned());
             }
             let [low, high] = panorama.limits_deg;
             if low > high {
@@ -306,6 +311,7 @@ impl HighlightEntry {
         }
         Placement::Free(FreePlacement {
             front: self.front.map_or(Vec3::Z, Vec3::from),
+            level: self.level,
             keys: self.key.iter().map(FreeKeyEntry::key).collect(),
         })
     }

@@ -16,6 +16,9 @@ pub struct FreePlacement {
     /// is turned there the shortest way. Only in the opposite direction its turn (not its place) is
     /// not defined.
     pub front: Vec3,
+    /// Instead, the drawing is level everywhere round the frame's Y axis, as a ring on hair is. Then
+    /// its turn (not its place) is not defined straight up and down.
+    pub level: bool,
     /// The keys, in any order.
     pub keys: Vec<FreeKey>,
 }
@@ -53,7 +56,7 @@ const SAME: f64 = 1e-10;
 
 impl Default for FreePlacement {
     fn default() -> Self {
-        Self { front: Vec3::Z, keys: Vec::new() }
+        Self { front: Vec3::Z, level: false, keys: Vec::new() }
     }
 }
 
@@ -190,11 +193,16 @@ impl FreePlacement {
 
     /// Right, up and direction of a drawing in that direction.
     fn upright(&self, direction: DVec3) -> DMat3 {
-        let front = unit(self.front);
-        let up = DVec3::Y - front * front.y;
-        let up = if up.length_squared() > 1e-12 { up.normalize() } else { DVec3::Z };
-        let turn = DQuat::from_rotation_arc(front, direction);
-        let up = turn * up;
+        let across = |d: DVec3| {
+            let up = DVec3::Y - d * d.y;
+            if up.length_squared() > 1e-12 { up.normalize() } else { DVec3::Z }
+        };
+        let up = if self.level {
+            across(direction)
+        } else {
+            let front = unit(self.front);
+            DQuat::from_rotation_arc(front, direction) * across(front)
+        };
         DMat3::from_cols(up.cross(direction), up, direction)
     }
 

@@ -126,6 +126,17 @@ fn free_keys_hold_exactly_and_a_range_hides() {
 }
 
 #[test]
+fn a_level_drawing_stays_upright_all_round() {
+    for yaw in 0..36 {
+        let light = direction_of(yaw as f32 * 0.175, -0.6);
+        let level = FreePlacement { level: true, ..FreePlacement::default() };
+        let placed = level.evaluate(&moment(light, Vec3::Z));
+        assert!(placed.axes.x_axis.y.abs() < 1e-9 && placed.axes.y_axis.y > 0.5);
+        assert!(placed.axes.x_axis.cross(placed.axes.y_axis).distance(placed.middle()) < 1e-9);
+    }
+}
+
+#[test]
 fn a_held_key_is_alone_in_its_neighbourhood() {
     let mut free = FreePlacement::default();
     let front = moment(Vec3::Z, Vec3::Z);
@@ -260,6 +271,9 @@ fn pictures_give_the_distance_to_their_contour() {
     }
 }
 
+/// A change, and what the sentence about it must have.
+type Case<'a> = (&'a dyn Fn(&mut Highlight), &'a str);
+
 #[test]
 fn what_cannot_be_drawn_is_said_in_a_sentence() {
     let wrong = |change: &dyn Fn(&mut Highlight)| {
@@ -272,7 +286,7 @@ fn what_cannot_be_drawn_is_said_in_a_sentence() {
         Placement::Free(FreePlacement { keys: vec![key], ..FreePlacement::default() })
     };
     let at = FreeKey::at(&moment(Vec3::X, Vec3::Z));
-    let cases: [(&dyn Fn(&mut Highlight), &str); 11] = [
+    let cases: [Case<'_>; 11] = [
         (&|h| h.node = Some(3), "node 3"),
         (&|h| h.gamma = f32::NAN, "gamma"),
         (&|h| h.size.x = 0.0, "size"),
