@@ -28,6 +28,8 @@ mod camera;
 mod file;
 mod highlight;
 mod highlight_place;
+#[cfg(test)]
+mod highlight_tests;
 mod light;
 mod merge;
 mod model;
