@@ -109,13 +109,12 @@ fn by_buffer() -> RgbImage {
 }
 
 /// Figure 11: all methods side by side. Above `image`, `hull` and `rim`; below `reference`,
-/// `contour`, and `contour` with widths by curves.
+/// `contour`, and `contour` with lines that get thinner with distance.
 fn by_method() -> RgbImage {
     let scene = model("teapot-on-box");
     let view = view_of(&scene, [440, 400]);
     let head = "reference_height = 400\n";
-    let curves = "width_by.screen_curvature = [[0, 0.7], [3, 1.4]]\n\
-                  width_by.taper = [[0, 0.25], [40, 1]]\n";
+    let curves = "width_by.depth = [[1.9, 1.7], [2.9, 0.4]]";
     let panel = |method: &str, set: &str| {
         drawing(
             &scene,
