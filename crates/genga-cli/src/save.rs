@@ -95,7 +95,12 @@ impl Saver {
 fn ending(kind: LayerKind) -> &'static str {
     match kind {
         LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => "png",
-        LayerKind::Depth | LayerKind::Normal | LayerKind::Ids | LayerKind::HighlightUv => "exr",
+        LayerKind::Depth
+        | LayerKind::Normal
+        | LayerKind::Ids
+        | LayerKind::LineMask
+        | LayerKind::LineType
+        | LayerKind::HighlightUv => "exr",
     }
 }
 
@@ -103,6 +108,8 @@ fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
     let names: &[&str] = match layer.kind {
         LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => &["R", "G", "B", "A"],
         LayerKind::HighlightUv => &["drawing.X", "drawing.Y", "drawing.Z"],
+        LayerKind::LineMask => &["set.1", "set.2", "set.3", "set.4"],
+        LayerKind::LineType => &["line.type"],
         LayerKind::Depth => &["Z"],
         LayerKind::Normal => &["N.X", "N.Y", "N.Z"],
         LayerKind::Ids => &["id.object", "id.material", "id.line"],

@@ -164,6 +164,10 @@ pub(crate) enum LayerName {
     Ids,
     /// Lines alone (PNG)
     Lines,
+    /// Coverage of each line set (OpenEXR)
+    LineMask,
+    /// Types of the detected lines (OpenEXR)
+    LineType,
     /// Highlights alone (PNG)
     Highlight,
     /// Where pixels lie on the drawing of a highlight (EXR)
@@ -179,6 +183,8 @@ impl LayerName {
             Self::Normal => LayerKind::Normal,
             Self::Ids => LayerKind::Ids,
             Self::Lines => LayerKind::Lines,
+            Self::LineMask => LayerKind::LineMask,
+            Self::LineType => LayerKind::LineType,
             Self::Highlight => LayerKind::Highlight,
             Self::HighlightUv => LayerKind::HighlightUv,
         }

@@ -33,6 +33,12 @@ pub enum LayerKind {
     Ids,
     /// Lines alone: RGBA, sRGB-encoded, straight alpha.
     Lines,
+    /// Coverage of the pixel by each line set in [0, 1], four channels in the sets' order, 0 for
+    /// sets that are not there. Only the methods `contour` and `reference` fill it.
+    LineMask,
+    /// Which types of lines detection found at the pixel, as a sum: silhouette 1, crease 2,
+    /// object 4, material 8, user 32.
+    LineType,
     /// Highlights alone, in front of what hides them: RGBA, sRGB-encoded, straight alpha. Colour
     /// times alpha goes on top of [`Self::Color`].
     Highlight,
@@ -44,12 +50,14 @@ pub enum LayerKind {
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Color,
         Self::Depth,
         Self::Normal,
         Self::Ids,
         Self::Lines,
+        Self::LineMask,
+        Self::LineType,
         Self::Highlight,
         Self::HighlightUv,
     ];
@@ -63,6 +71,8 @@ impl LayerKind {
             Self::Normal => "normal",
             Self::Ids => "ids",
             Self::Lines => "lines",
+            Self::LineMask => "line-mask",
+            Self::LineType => "line-type",
             Self::Highlight => "highlight",
             Self::HighlightUv => "highlight-uv",
         }
@@ -272,6 +282,13 @@ impl Renderer {
                         read_whole(device, &mut encoder, &targets.normal.texture, all)
                     }
                     LayerKind::Ids => read_whole(device, &mut encoder, &targets.ids.texture, all),
+                    LayerKind::LineMask => {
+                        let coverage = &targets.coverage.texture;
+                        TextureRead::record(device, &mut encoder, coverage, all, offset, kept.size)
+                    }
+                    LayerKind::LineType => {
+                        read_whole(device, &mut encoder, &targets.mask.texture, all)
+                    }
                 });
                 self.queue.submit([encoder.finish()]);
             }
@@ -332,6 +349,15 @@ impl Texels {
             (LayerData::F32 { values, .. }, LayerKind::HighlightUv) => {
                 let means = self.paint_means(bytes);
                 copy_rows(values, picture_width, &means, self.kept, 3);
+            }
+            (LayerData::F32 { values, .. }, LayerKind::LineMask) => {
+                let coverage: Vec<f32> = bytes.iter().map(|&b| f32::from(b) / 255.0).collect();
+                copy_rows(values, picture_width, &coverage, self.kept, 4);
+            }
+            (LayerData::U32 { values, .. }, LayerKind::LineType) => {
+                // The lowest byte; margins lie above it.
+                let types: Vec<u32> = self.pick::<4>(bytes).map(|t| u32::from(t[0])).collect();
+                copy_rows(values, picture_width, &types, self.kept, 1);
             }
             (LayerData::F32 { values, .. }, LayerKind::Depth) => {
                 let distances: Vec<f32> = self
@@ -408,6 +434,8 @@ fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
         LayerKind::Normal | LayerKind::HighlightUv => {
             LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] }
         }
+        LayerKind::LineMask => LayerData::F32 { channels: 4, values: vec![0.0; 4 * pixels] },
+        LayerKind::LineType => LayerData::U32 { channels: 1, values: vec![0; pixels] },
         LayerKind::Ids => LayerData::U32 { channels: 3, values: vec![0; 3 * pixels] },
     };
     Layer { kind, data }
