@@ -7,6 +7,8 @@ pub mod compare;
 pub mod edges;
 pub mod eye;
 pub mod gpu;
+pub mod highlight_proofs;
+pub mod highlights;
 pub mod lines;
 pub mod pixels;
 pub mod reference;

@@ -33,7 +33,11 @@ enum Task {
     /// Run every check and test; installs a software driver if needed
     Test,
     /// Draw the small pictures of assets/gallery again
-    Gallery,
+    Gallery {
+        /// Only the sheets of highlights
+        #[arg(long)]
+        highlights: bool,
+    },
     /// List test pictures that differ from the expected ones
     Snapshots {
         /// Take them over as the expected ones
@@ -85,7 +89,7 @@ fn run(task: Task) -> Result<()> {
     match task {
         Task::Demo => gallery::demo(root),
         Task::Test => check::test(root),
-        Task::Gallery => gallery::gallery(root),
+        Task::Gallery { highlights } => gallery::gallery(root, highlights),
         Task::Snapshots { update } => snapshots::snapshots(root, update),
         Task::Verify => {
             let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];

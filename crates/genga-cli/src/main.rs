@@ -6,6 +6,7 @@ mod console;
 mod failure;
 mod gpu;
 mod inspect;
+mod keys;
 mod model;
 mod names;
 mod output;

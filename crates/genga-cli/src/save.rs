@@ -94,14 +94,15 @@ impl Saver {
 /// What numbers are written as: colours as PNG, other quantities as OpenEXR.
 fn ending(kind: LayerKind) -> &'static str {
     match kind {
-        LayerKind::Color | LayerKind::Lines => "png",
-        LayerKind::Depth | LayerKind::Normal | LayerKind::Ids => "exr",
+        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => "png",
+        LayerKind::Depth | LayerKind::Normal | LayerKind::Ids | LayerKind::HighlightUv => "exr",
     }
 }
 
 fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
     let names: &[&str] = match layer.kind {
-        LayerKind::Color | LayerKind::Lines => &["R", "G", "B", "A"],
+        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => &["R", "G", "B", "A"],
+        LayerKind::HighlightUv => &["drawing.X", "drawing.Y", "drawing.Z"],
         LayerKind::Depth => &["Z"],
         LayerKind::Normal => &["N.X", "N.Y", "N.Z"],
         LayerKind::Ids => &["id.object", "id.material", "id.line"],

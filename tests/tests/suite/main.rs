@@ -6,6 +6,8 @@ mod contours;
 mod edges;
 mod errors;
 mod geometry;
+mod highlight_surfaces;
+mod highlights;
 mod lines;
 mod outlines;
 mod pipelines;

@@ -4,7 +4,10 @@
 use std::sync::{Arc, Mutex};
 
 use genga::render::{LayerKind, Renderer, View};
-use genga::scene::{AlphaMode, Material, Scene};
+use genga::scene::{
+    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene,
+};
+use genga::style::Globs;
 use genga::{shapes, style::Style};
 use genga_tests::scenes::{Builder, moved, ortho_view, parts, perspective_view, style};
 use glam::{Quat, Vec3, Vec4};
@@ -48,7 +51,34 @@ fn scene_of_all_kinds() -> Scene {
         let mirror = parts(Vec3::NEG_Y, Quat::IDENTITY, Vec3::new(-1.0, 1.0, 1.0));
         scene.object("mirrored", shapes::cuboid(Vec3::ONE), Some(material), mirror);
     }
-    scene.build()
+    let mut scene = scene.build();
+    scene.highlights = highlights_of_all_kinds();
+    scene
+}
+
+/// Highlights that need everything that pipelines can be specialised for.
+fn highlights_of_all_kinds() -> Vec<Highlight> {
+    let triangle = ProxyMesh {
+        positions: vec![Vec3::X, Vec3::Y, Vec3::Z],
+        normals: vec![Vec3::ONE.normalize(); 3],
+        indices: vec![[0, 1, 2]],
+    };
+    let mask = genga_tests::scenes::image(2, 2, |_, _| [255; 4]);
+    vec![
+        Highlight::default(),
+        Highlight {
+            proxy: Proxy::Mesh { center: Vec3::ZERO, mesh: Arc::new(triangle) },
+            gamma: 0.5,
+            mask: Some(Arc::new(mask)),
+            placement: Placement::Panorama(PanoramaPlacement::default()),
+            ..Highlight::default()
+        },
+        Highlight {
+            objects: Globs::new(["mirrored"]).expect("a glob"),
+            proxy: Proxy::Capsule { from: Vec3::ZERO, to: Vec3::Y },
+            ..Highlight::default()
+        },
+    ]
 }
 
 const METHODS: [&str; 6] = ["none", "contour", "reference", "hull", "rim", "image"];

@@ -1,5 +1,6 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod highlights;
 mod lines;
 
 use std::fmt::Write as _;
@@ -21,12 +22,15 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed.
-pub(crate) fn gallery(root: &Path) -> Result<()> {
+pub(crate) fn gallery(root: &Path, only_highlights: bool) -> Result<()> {
     let folder = root.join("assets/gallery");
+    if only_highlights {
+        return highlights::sheets(root, &folder);
+    }
     let pictures = draw(root, &folder, "480x270")?;
     lines::draw(root, &folder)?;
     println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
-    Ok(())
+    highlights::sheets(root, &folder)
 }
 
 /// A drawn picture.

@@ -21,7 +21,7 @@ Examples:
   genga render Fox.glb --clip Run --frames 0..23 -o 'run/{frame:04}.png'
   genga render Fox.glb --layers color,lines,depth --size 3840x2160
   genga render Fox.glb -o - | magick - fox.jpg
-  genga render shot.scene.toml")]
+  genga render shot.scene.toml --dump-keys")]
 pub(crate) struct RenderArgs {
     /// Models (.gltf, .glb, .obj) and scenes (.scene.toml); each gives a picture of its own
     #[arg(required = true, value_name = "MODEL|SCENE")]
@@ -29,6 +29,10 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) picture: PictureArgs,
+
+    /// Print where each highlight stands in each picture, as TOML, to standard output
+    #[arg(long)]
+    pub(crate) dump_keys: bool,
 
     /// Draw this frame of the clip
     #[arg(long, value_name = "N", value_parser = values::frame, allow_negative_numbers = true)]
@@ -150,7 +154,7 @@ pub(crate) struct OrbitArgs {
 /// Parts of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum LayerName {
-    /// Painted surfaces without lines and background (PNG)
+    /// Painted surfaces without highlights, lines and background (PNG)
     Color,
     /// Distance from the camera in metres (EXR)
     Depth,
@@ -160,6 +164,10 @@ pub(crate) enum LayerName {
     Ids,
     /// Lines alone (PNG)
     Lines,
+    /// Highlights alone (PNG)
+    Highlight,
+    /// Where pixels lie on the drawing of a highlight (EXR)
+    HighlightUv,
 }
 
 impl LayerName {
@@ -171,6 +179,8 @@ impl LayerName {
             Self::Normal => LayerKind::Normal,
             Self::Ids => LayerKind::Ids,
             Self::Lines => LayerKind::Lines,
+            Self::Highlight => LayerKind::Highlight,
+            Self::HighlightUv => LayerKind::HighlightUv,
         }
     }
 }

@@ -6,7 +6,9 @@ use crate::args::{FrameRange, RenderArgs};
 use crate::console::{Console, Progress};
 use crate::failure::{Failure, Outcome};
 use crate::gpu::Graphics;
+use crate::keys;
 use crate::names::Names;
+use crate::output::Output;
 use crate::save::Saver;
 use crate::source::{self, Source};
 use crate::style_choice::{self, StyleChoice};
@@ -19,6 +21,12 @@ const MEASURED_POSES: usize = 24;
 pub(crate) fn run(args: &RenderArgs, console: &Console) -> Outcome {
     let style = args.picture.style.as_deref().map(style_choice::find).transpose()?;
     let moments = Moments::of(args);
+    if args.dump_keys && args.picture.output == Some(Output::Stdout) {
+        return Err(Failure::Usage(
+            "standard output cannot take both the picture and the keys: give '--output' a name"
+                .to_owned(),
+        ));
+    }
     let names = Names::new(&args.picture, args.inputs.len(), moments.range.count())?;
     let style_name = style.as_ref().map_or(style_choice::DEFAULT, |style| &style.name);
     names.check(&args.inputs, style_name, style.as_ref(), moments.range.first)?;
@@ -124,6 +132,9 @@ impl Shoot<'_> {
             let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
             graphics.check(&source.name, posed)?;
             let view = view::view(&args.picture, source, self.camera(&pose, &points)?, frame);
+            if args.dump_keys {
+                keys::print(&source.name, frame, &prepared, &view)?;
+            }
             let step = &mut |done, tiles| progress.set(number, done, tiles);
             let picture = graphics.picture(&source.name, &prepared, &view, &layers, step)?;
             saver.save(&picture, &target)?;

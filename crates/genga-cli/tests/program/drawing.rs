@@ -152,3 +152,38 @@ fn bench_reports_the_ratio() {
     assert!((number(&frame["ratio"]) - median("styled") / median("plain")).abs() < 1e-9);
     assert!(report["adapter"]["name"].is_string());
 }
+
+#[test]
+fn highlights_are_drawn_and_their_keys_printed() {
+    let scene = br##"
+        version = 1
+        style = "anime"
+        [[model]]
+        file = "good.glb"
+        [camera]
+        azimuth_deg = 35
+        [[highlight]]
+        name = "a \"spot\""
+        drawing = "disc"
+        size_deg = [300, 300]
+        proxy = { type = "plane", normal = [1, 1, 1] }
+        [[highlight.key]]
+        light_deg = [0, 90]
+        view_deg = [0, 0]
+    "##;
+    let here = folder(&[("good.glb", &tetrahedron()), ("shot.scene.toml", scene)]);
+    let options = ["--size", "64x48", "-o", "shot.png", "--layers", "highlight,highlight-uv"];
+    let args = [&["render", "shot.scene.toml", "--dump-keys"], &options[..]].concat();
+    let run = genga(here.path(), &args).ok();
+    let text = run.text();
+    assert!(text.contains("name = \"a \\\"spot\\\"\"") && text.contains("light_deg = ["), "{text}");
+    assert!(text.contains("view_deg = [") && text.contains("middle_deg = ["), "{text}");
+    let drawn = names(here.path());
+    for name in ["shot.highlight.png", "shot.highlight-uv.exr", "shot.png"] {
+        assert!(drawn.contains(&name.to_owned()), "{drawn:?}");
+    }
+    let layer = picture(&here.path().join("shot.highlight.png"));
+    assert!(layer.pixels().filter(|p| p[3] > 200 && p[0] > 200).count() > 50);
+    let both = ["render", "shot.scene.toml", "--dump-keys", "-o", "-"];
+    genga(here.path(), &both).fails(2, &["standard output"]);
+}

@@ -8,6 +8,8 @@ pub(crate) struct Layouts {
     pub(crate) surface: wgpu::BindGroupLayout,
     /// Group 1 of passes that draw surfaces: base colour, emissive, ids.
     pub(crate) material: wgpu::BindGroupLayout,
+    /// Group 2 of pipelines that draw highlights; see `shaders/shading/highlight.wesl`.
+    pub(crate) highlights: wgpu::BindGroupLayout,
     /// Group 0 of `deform`.
     pub(crate) deform: wgpu::BindGroupLayout,
     /// One uniform with a dynamic offset.
@@ -55,6 +57,19 @@ impl Layouts {
                     (2, B::Filtered),
                     (3, B::Sampler),
                     (4, B::Float),
+                ],
+            ),
+            highlights: layout(
+                device,
+                "highlights",
+                S::FRAGMENT,
+                &[
+                    (0, B::DynamicUniform),
+                    (1, B::FilteredLayers),
+                    (2, B::FilteredLayers),
+                    (3, B::FilteredLayers),
+                    (4, B::Sampler),
+                    (5, B::Sampler),
                 ],
             ),
             deform: layout(

@@ -8,6 +8,7 @@ mod error;
 mod frame;
 mod generated;
 mod gpu;
+mod highlights;
 mod layouts;
 mod passes;
 mod picture;
@@ -18,6 +19,7 @@ mod view;
 
 pub use error::RenderError;
 pub use gpu::{Gpu, GpuError, GpuOptions, adapters};
+pub use highlights::HighlightState;
 pub use picture::{Layer, LayerData, LayerKind, MAX_PICTURE_SIDE, Picture};
 pub use prepare::Prepared;
 pub use renderer::{FrameTimes, PassTime, Renderer, Workload};

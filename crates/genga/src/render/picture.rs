@@ -2,9 +2,10 @@
 
 use super::{
     RenderError,
-    frame::{Output, Tile, apron, gbuffer_scale},
+    frame::{Aim, Output, Tile, apron, gbuffer_scale, viewport},
     generated::ID_OBJECT,
     gpu::{readback::TextureRead, scope, timing::Timer},
+    passes::paint::PaintOutput,
     prepare::Prepared,
     renderer::{Renderer, check_view},
     targets::{Scale, Target, target},
@@ -20,8 +21,8 @@ const MAX_TILE_TEXELS: u32 = 3072;
 /// What a layer shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LayerKind {
-    /// Painted surfaces without lines and background: RGBA, sRGB-encoded, straight alpha. The
-    /// `hull` and `rim` methods are part of it.
+    /// Painted surfaces without highlights, lines and background: RGBA, sRGB-encoded, straight
+    /// alpha. The `hull` and `rim` methods are part of it.
     Color,
     /// Distance along the camera's axis in metres; infinite on the background.
     Depth,
@@ -32,11 +33,26 @@ pub enum LayerKind {
     Ids,
     /// Lines alone: RGBA, sRGB-encoded, straight alpha.
     Lines,
+    /// Highlights alone, in front of what hides them: RGBA, sRGB-encoded, straight alpha. Colour
+    /// times alpha goes on top of [`Self::Color`].
+    Highlight,
+    /// Where each pixel lies on the drawing of its surface's first highlight: the drawing's square
+    /// is [−1, 1]², y up; then the distance to its outline in the same unit, negative inside. 0
+    /// without a highlight, and on transparent surfaces what lies behind.
+    HighlightUv,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 5] = [Self::Color, Self::Depth, Self::Normal, Self::Ids, Self::Lines];
+    pub const ALL: [Self; 7] = [
+        Self::Color,
+        Self::Depth,
+        Self::Normal,
+        Self::Ids,
+        Self::Lines,
+        Self::Highlight,
+        Self::HighlightUv,
+    ];
 
     /// Name in file names and options.
     #[must_use]
@@ -47,6 +63,8 @@ impl LayerKind {
             Self::Normal => "normal",
             Self::Ids => "ids",
             Self::Lines => "lines",
+            Self::Highlight => "highlight",
+            Self::HighlightUv => "highlight-uv",
         }
     }
 }
@@ -172,6 +190,8 @@ impl Renderer {
             kept,
             scale: gbuffer_scale(prepared, view),
             width: gbuffer_scale(prepared, view).of(tile.size[0]),
+            paint_scale: view.supersample,
+            paint_width: tile.size[0] * view.supersample,
         };
         for (layer, read) in picture.layers.iter_mut().zip(reads) {
             texels.copy(layer, picture.width, &read.finish(&self.device).await?);
@@ -211,16 +231,37 @@ impl Renderer {
             };
             let mut reads = vec![read_shown(&mut encoder)];
             self.queue.submit([encoder.finish()]);
+            let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+            let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
+            // What the paint target holds at the moment.
+            let mut painted = PaintOutput::All;
+            let mut repaint = |encoder: &mut wgpu::CommandEncoder, mut wanted: PaintOutput| {
+                // Without highlights both are the same.
+                if wanted == PaintOutput::Plain && !prepared.highlights.any() {
+                    wanted = PaintOutput::All;
+                }
+                if wanted != painted {
+                    let off = &mut Timer::off();
+                    self.paint.run(device, encoder, prepared, &targets, (&aim, wanted), off);
+                    painted = wanted;
+                }
+            };
             for layer in &picture.layers {
                 let mut encoder = self.encoder("layer");
                 let output = Output { background: false, ..whole };
                 reads.push(match layer.kind {
-                    LayerKind::Color | LayerKind::Lines => {
-                        let paint = layer.kind == LayerKind::Color;
+                    LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
+                        let paint = layer.kind != LayerKind::Lines;
                         let output = Output { paint, lines: !paint, ..output };
-                        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
                         self.write_frame(prepared, view, &projected, tile, output);
+                        if let Some(wanted) = paint_output(layer.kind) {
+                            repaint(&mut encoder, wanted);
+                        }
                         read_shown(&mut encoder)
+                    }
+                    LayerKind::HighlightUv => {
+                        repaint(&mut encoder, PaintOutput::Coordinates);
+                        read_whole(device, &mut encoder, &targets.paint.texture, all)
                     }
                     LayerKind::Depth => {
                         // Depth textures can only be copied whole.
@@ -236,6 +277,15 @@ impl Renderer {
             }
             Ok(reads)
         })
+    }
+}
+
+/// What the paint target must hold for a layer that is composited from it.
+fn paint_output(kind: LayerKind) -> Option<PaintOutput> {
+    match kind {
+        LayerKind::Color => Some(PaintOutput::Plain),
+        LayerKind::Highlight => Some(PaintOutput::Highlights),
+        _ => None,
     }
 }
 
@@ -258,6 +308,10 @@ struct Texels {
     scale: Scale,
     /// G-buffer texels in a row.
     width: u32,
+    /// Paint texels per pixel.
+    paint_scale: u32,
+    /// Paint texels in a row.
+    paint_width: u32,
 }
 
 impl Texels {
@@ -275,6 +329,10 @@ impl Texels {
     fn copy(&self, layer: &mut Layer, picture_width: u32, bytes: &[u8]) {
         match (&mut layer.data, layer.kind) {
             (LayerData::Rgba8(rgba), _) => copy_rows(rgba, picture_width, bytes, self.kept, 4),
+            (LayerData::F32 { values, .. }, LayerKind::HighlightUv) => {
+                let means = self.paint_means(bytes);
+                copy_rows(values, picture_width, &means, self.kept, 3);
+            }
             (LayerData::F32 { values, .. }, LayerKind::Depth) => {
                 let distances: Vec<f32> = self
                     .pick::<4>(bytes)
@@ -304,6 +362,30 @@ impl Texels {
         }
     }
 
+    /// Mean of the paint texels of each pixel of the part that is kept, without alpha.
+    fn paint_means(&self, bytes: &[u8]) -> Vec<f32> {
+        let (texels, _) = bytes.as_chunks::<8>();
+        let (offset, size, scale) = (self.offset, self.kept.size, self.paint_scale);
+        let width = self.paint_width as usize;
+        let channel = |texel: &[u8; 8], c: usize| {
+            half::f16::from_le_bytes([texel[2 * c], texel[2 * c + 1]]).to_f32()
+        };
+        let mut means = Vec::with_capacity(3 * size[0] as usize * size[1] as usize);
+        for y in 0..size[1] {
+            for x in 0..size[0] {
+                let mut sum = [0.0_f32; 3];
+                for i in 0..scale * scale {
+                    let row = ((offset[1] + y) * scale + i / scale) as usize;
+                    let column = ((offset[0] + x) * scale + i % scale) as usize;
+                    let texel = &texels[row * width + column];
+                    (0..3).for_each(|c| sum[c] += channel(texel, c));
+                }
+                means.extend(sum.map(|sum| sum / (scale * scale) as f32));
+            }
+        }
+        means
+    }
+
     /// Metres along the camera's axis; infinite for the cleared value.
     fn distance(&self, depth: f32) -> f32 {
         let range = self.projected.depth_range;
@@ -319,9 +401,13 @@ impl Texels {
 
 fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
     let data = match kind {
-        LayerKind::Color | LayerKind::Lines => LayerData::Rgba8(vec![0; 4 * pixels]),
+        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
+            LayerData::Rgba8(vec![0; 4 * pixels])
+        }
         LayerKind::Depth => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
-        LayerKind::Normal => LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] },
+        LayerKind::Normal | LayerKind::HighlightUv => {
+            LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] }
+        }
         LayerKind::Ids => LayerData::U32 { channels: 3, values: vec![0; 3 * pixels] },
     };
     Layer { kind, data }

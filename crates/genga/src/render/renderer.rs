@@ -16,7 +16,7 @@ use super::{
         detect::DetectPass,
         gbuffer::GBufferPass,
         link::{LinkPass, SizePass},
-        paint::PaintPass,
+        paint::{PaintOutput, PaintPass},
         plain::{PlainPass, PlainTargets},
         reference::ReferencePass,
         seams::SeamPass,
@@ -47,7 +47,7 @@ pub struct Renderer {
     sizes: SizePass,
     strokes: StrokePass,
     reference: ReferencePass,
-    paint: PaintPass,
+    pub(crate) paint: PaintPass,
     composite: CompositePass,
     plain: PlainPass,
     /// The targets of the last size drawn.
@@ -220,7 +220,7 @@ impl Renderer {
 
         self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
         self.detect.run(device, encoder, prepared, &targets, timer);
-        self.paint.run(device, encoder, prepared, &targets, &aim, timer);
+        self.paint.run(device, encoder, prepared, &targets, (&aim, PaintOutput::All), timer);
         match prepared.style.lines.method {
             LineMethod::Contour => self.draw_contours(encoder, prepared, &targets, timer),
             LineMethod::Reference => {
@@ -265,6 +265,7 @@ impl Renderer {
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
         let tiles = [tile, viewport(&self.device, view, tile)];
         let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
+        prepared.highlights.write(&self.queue, prepared, view, &lights);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
     }

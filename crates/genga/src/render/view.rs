@@ -67,6 +67,18 @@ impl ViewCamera {
         Fit::new(points, orbit, aspect).camera(orbit, &azimuths, false)
     }
 
+    /// Unit vector from a point of the world to the eye.
+    #[must_use]
+    pub fn to_eye(&self, point: Vec3) -> Vec3 {
+        let back = Vec3::from(self.world_from_camera.matrix3.z_axis).normalize_or(Vec3::Z);
+        match self.projection {
+            Projection::Perspective { .. } => {
+                (Vec3::from(self.world_from_camera.translation) - point).normalize_or(back)
+            }
+            Projection::Orthographic { .. } => back,
+        }
+    }
+
     /// The camera of a node of the file; `None` if that node has none.
     #[must_use]
     pub fn from_node(scene: &Scene, pose: &Pose, node: usize) -> Option<Self> {
@@ -217,6 +229,28 @@ impl View {
     #[must_use]
     pub fn new(camera: ViewCamera, size: [u32; 2]) -> Self {
         Self { camera, size, supersample: 2, background: true, frame: 0 }
+    }
+
+    /// The ray through a place of the picture in pixels from its top left (the first pixel's
+    /// middle is at 0.5): where it starts and its unit direction, in the world.
+    #[must_use]
+    pub fn ray(&self, pixel: Vec2) -> [Vec3; 2] {
+        let camera = &self.camera.world_from_camera;
+        let size = Vec2::new(self.size[0].max(1) as f32, self.size[1].max(1) as f32);
+        let at = (pixel / size * 2.0 - 1.0) * Vec2::new(size.x / size.y, -1.0);
+        let eye = Vec3::from(camera.translation);
+        let forward = -Vec3::from(camera.matrix3.z_axis).normalize_or(Vec3::Z);
+        match self.camera.projection {
+            Projection::Perspective { fov_y } => {
+                let offset = at * (0.5 * fov_y.clamp(1e-4, 3.1)).tan();
+                let direction = camera.transform_vector3(offset.extend(-1.0));
+                [eye, direction.normalize_or(forward)]
+            }
+            Projection::Orthographic { height } => {
+                let offset = at * 0.5 * height.max(1e-9);
+                [eye + camera.transform_vector3(offset.extend(0.0)), forward]
+            }
+        }
     }
 }
 

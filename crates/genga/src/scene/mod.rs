@@ -7,10 +7,12 @@
 mod bounds;
 mod camera;
 mod clip;
+mod highlight;
 mod light;
 mod material;
 mod mesh;
 mod node;
+mod pick;
 mod pose;
 #[cfg(test)]
 mod tests;
@@ -19,14 +21,22 @@ mod validate;
 pub use bounds::Aabb;
 pub use camera::{Camera, Projection};
 pub use clip::{Channel, ChannelTarget, Clip, Interpolation};
+pub use highlight::{
+    AngleKey, BuiltInDrawing, Drawing, DrawingError, FreeKey, FreePlacement, Highlight,
+    HighlightBlend, HighlightError, HighlightFrame, HighlightTone, KeyInterpolation, Moment,
+    PanoramaPlacement, PlaceError, Placed, Placement, Proxy, ProxyMesh, direction_of, yaw_pitch,
+};
 pub use light::{Light, LightKind};
 pub use material::{
     AlphaMode, Filter, Image, Material, MipFilter, Sampler, Texture, TextureRef, UvTransform, Wrap,
 };
 pub use mesh::{Mesh, MorphTarget, Primitive};
 pub use node::{Node, Skin, Transform};
+pub use pick::Hit;
 pub use pose::Pose;
 pub use validate::SceneError;
+
+pub(crate) use highlight::{FIELD_SIZE, NORMAL_MAP_SIZE, ProxyShape};
 
 /// A whole model or set: everything that can be drawn, posed and lit.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +63,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Lights, referred to by [`Node::light`].
     pub lights: Vec<Light>,
+    /// Anime highlights.
+    pub highlights: Vec<Highlight>,
 }
 
 impl Scene {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Interpolation, Scene};
+use super::{HighlightError, Interpolation, Scene};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -79,6 +79,9 @@ pub enum SceneError {
         /// Values per key.
         width: usize,
     },
+    /// A highlight cannot be drawn.
+    #[error(transparent)]
+    Highlight(#[from] HighlightError),
     /// A coordinate is not a finite number.
     #[error("mesh '{mesh}' has a position that is not a finite number at vertex {vertex}")]
     NotFinite {
@@ -162,6 +165,12 @@ impl Scene {
                     return Err(SceneError::Keys { index: i, name, node, width });
                 }
             }
+        }
+        for (index, highlight) in self.highlights.iter().enumerate() {
+            highlight.validate(self.nodes.len()).map_err(|problem| {
+                let name = highlight.name.clone();
+                HighlightError { index, name, problem }
+            })?;
         }
         Ok(())
     }

@@ -1,6 +1,7 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
+use super::highlight_place::Instance;
 use super::merge::Merged;
 use super::{CameraEntry, ClipEntry, Located, ModelEntry, SceneCamera, SceneFile};
 use crate::FileError;
@@ -54,12 +55,16 @@ impl SceneFile {
         }
         let mut merged = Merged::new(self.name());
         let offsets: Vec<_> = files.iter_mut().map(|(_, scene)| merged.add_shared(scene)).collect();
+        let mut placed = Vec::new();
         for (model, file, pose, hidden) in instances {
             let (Some((_, scene)), Some(offsets)) = (files.get(file), offsets.get(file)) else {
                 continue;
             };
             let (name, transform) = (model.node_name(), model.transform());
-            merged.add_instance(scene, *offsets, pose, &hidden, name, transform);
+            let meshes = scene.nodes.iter().map(|node| node.mesh.map(|m| m + offsets.meshes));
+            let (meshes, known_as) = (meshes.collect(), name.clone());
+            let top = merged.add_instance(scene, *offsets, pose, &hidden, name, transform);
+            placed.push(Instance { name: known_as, top, meshes });
         }
         for entry in &self.lights {
             let light = Some(merged.scene.lights.len());
@@ -73,6 +78,7 @@ impl SceneFile {
             Some(CameraEntry::Placed(placed)) => Some(SceneCamera::Placed(*placed)),
             Some(CameraEntry::Node(name)) => Some(self.camera_node(name, &merged.scene)?),
         };
+        merged.scene.highlights = self.place_highlights(&merged.scene, &placed)?;
         Ok(Assembled { scene: merged.scene, pose: merged.pose, camera, warnings })
     }
 
@@ -145,7 +151,7 @@ fn hidden_nodes(model: &ModelEntry, scene: &Scene) -> (Vec<bool>, bool) {
     (hidden, matched)
 }
 
-fn not_there(what: &str, name: &str, known: &[&str]) -> String {
+pub(super) fn not_there(what: &str, name: &str, known: &[&str]) -> String {
     const SHOWN: usize = 20;
     if known.is_empty() {
         return format!("there is no {what} '{name}': there are no {what}s at all");

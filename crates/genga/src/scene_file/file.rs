@@ -5,7 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
-use super::{CameraEntry, LightEntry, Located, ModelEntry, camera, light};
+use super::{
+    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, camera, highlight, light,
+};
 use crate::FileError;
 use crate::style::{Style, StyleError, is_style_path};
 use crate::toml_file::{Document, list_with, read_text, schema_of, show_path};
@@ -38,6 +40,8 @@ pub struct SceneFile {
     pub camera: Option<CameraEntry>,
     /// Lights besides those of the models.
     pub lights: Vec<LightEntry>,
+    /// Anime highlights.
+    pub highlights: Vec<HighlightEntry>,
     /// The picture to make.
     pub picture: Picture,
     /// Where relative paths start.
@@ -83,6 +87,10 @@ struct Written {
     #[serde(default, deserialize_with = "lights")]
     #[schemars(with = "Vec<light::Written>", length(max = 1000))]
     light: Vec<LightEntry>,
+    /// Anime highlights.
+    #[serde(default, deserialize_with = "highlight::highlights")]
+    #[schemars(with = "Vec<HighlightEntry>", length(max = 1000))]
+    highlight: Vec<HighlightEntry>,
     /// The picture to make.
     #[serde(default)]
     picture: Picture,
@@ -130,6 +138,7 @@ impl SceneFile {
             models: written.model,
             camera: written.camera,
             lights: written.light,
+            highlights: written.highlight,
             picture: written.picture,
             directory,
             path: path.map(Path::to_owned),

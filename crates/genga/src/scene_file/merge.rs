@@ -13,7 +13,7 @@ pub(super) struct Merged {
 /// Where a file's shared parts begin in the merged scene.
 #[derive(Clone, Copy)]
 pub(super) struct Offsets {
-    meshes: usize,
+    pub(super) meshes: usize,
     cameras: usize,
     lights: usize,
 }
@@ -58,7 +58,7 @@ impl Merged {
         offsets
     }
 
-    /// Puts a model under a node of its own. `pose` is the model's, by itself; `hidden` says
+    /// Puts a model under a node of its own, whose index it returns. `pose` is the model's, by itself; `hidden` says
     /// which of its nodes are not drawn.
     pub(super) fn add_instance(
         &mut self,
@@ -68,7 +68,7 @@ impl Merged {
         hidden: &[bool],
         name: String,
         transform: Transform,
-    ) {
+    ) -> usize {
         let world_from_model = transform.parent_from_node();
         let top = self.add_node(Node { name, transform, ..Node::default() });
         let first = top + 1;
@@ -114,6 +114,7 @@ impl Merged {
             self.pose.morph_weights.push(weights);
             self.pose.visible.push(visible);
         }
+        top
     }
 
     /// Adds a root node; returns its index.

@@ -26,6 +26,10 @@
 mod assemble;
 mod camera;
 mod file;
+mod highlight;
+mod highlight_place;
+#[cfg(test)]
+mod highlight_tests;
 mod light;
 mod merge;
 mod model;
@@ -36,5 +40,8 @@ pub use crate::toml_file::Located;
 pub use assemble::Assembled;
 pub use camera::{CameraEntry, OrbitCamera, PlacedCamera, SceneCamera};
 pub use file::{Picture, SceneFile, SceneFileError, json_schema};
+pub use highlight::{
+    AngleKeyEntry, FreeKeyEntry, HighlightEntry, PanoramaEntry, ProxyEntry, ProxyKind,
+};
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};

@@ -11,7 +11,7 @@ use crate::scene::{
 use crate::toml_file::mutate;
 
 /// root(0) → body(1, skinned mesh), bone(2) → hat(3, mesh), eye(4, camera), lamp(5, light)
-fn model() -> Scene {
+pub(super) fn model() -> Scene {
     let triangle = Primitive {
         positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
         normals: vec![Vec3::Z; 3],
@@ -82,11 +82,11 @@ fn model() -> Scene {
     }
 }
 
-fn read(text: &str) -> SceneFile {
+pub(super) fn read(text: &str) -> SceneFile {
     SceneFile::from_toml_str(text).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-fn assemble(text: &str) -> Assembled {
+pub(super) fn assemble(text: &str) -> Assembled {
     let load = |_: &Path| Ok::<_, String>(model());
     let assembled = read(text).assemble(load).unwrap_or_else(|e| panic!("{e}\n{text}"));
     assembled.scene.validate().expect("what is assembled is valid");
@@ -97,7 +97,7 @@ fn assemble(text: &str) -> Assembled {
     assembled
 }
 
-fn near(a: Vec3, b: Vec3) -> bool {
+pub(super) fn near(a: Vec3, b: Vec3) -> bool {
     (a - b).length() < 1e-5
 }
 

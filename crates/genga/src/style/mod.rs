@@ -27,7 +27,7 @@ mod lines;
 mod merge;
 mod overrides;
 mod paint;
-mod picture;
+pub(crate) mod picture;
 mod presets;
 #[cfg(test)]
 mod tests;

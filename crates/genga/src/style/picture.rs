@@ -24,7 +24,8 @@ pub(super) fn load_some<'de, D: Deserializer<'de>>(
 /// Longest side in pixels: the most that common graphics adapters take.
 const MAX_SIDE: u32 = 16_384;
 
-fn open(path: &Path) -> Result<Image, String> {
+/// The picture of a file, or the end of a sentence that says why there is none.
+pub(crate) fn open(path: &Path) -> Result<Image, String> {
     let shown = path.display();
     // Reading a pipe or a device might never end.
     if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {

@@ -42,7 +42,7 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 8] = [
+    let parts: [Part; 10] = [
         ("contours", contours::contours),
         ("outlines", outlines::outlines),
         ("scales", scales::scales),
@@ -51,6 +51,8 @@ fn main() -> ExitCode {
         ("tiles", tiles),
         ("large-picture", large_picture),
         ("large-mesh", large_mesh),
+        ("highlights", highlights),
+        ("highlight-cost", highlight_cost),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
@@ -254,4 +256,14 @@ fn large_mesh(report: &mut Report) {
         picture.places().filter(|&(x, y)| picture.ink(x, y).abs_diff(few.ink(x, y)) > 128).count();
     println!("  pixels of ink that 100,000 triangles have elsewhere: {off}");
     report.check(5 * off < inked, || format!("{off} of {inked} pixels of ink are elsewhere"));
+}
+
+/// Where highlights stand, and what shape they have.
+fn highlights(report: &mut Report) {
+    genga_tests::highlight_proofs::places(&mut |holds, fault| report.check(holds, || fault));
+}
+
+/// What highlights cost.
+fn highlight_cost(report: &mut Report) {
+    genga_tests::highlight_proofs::cost(&mut |holds, fault| report.check(holds, || fault));
 }

@@ -14,7 +14,7 @@ use super::skeleton::{
     NECK, RIGHT, SHOULDER, THUMB, TOES, UPPER_ARM, UPPER_LEG,
 };
 use super::weights::Weights;
-use super::{Cast, cast, poses};
+use super::{Cast, poses, shared_cast};
 
 const NAMES: [&str; 15] = [
     "trunk",
@@ -174,7 +174,7 @@ fn cuts(all: &Triangles, bones: &[Bone], pose: &Pose) -> BTreeMap<(usize, usize)
 #[test]
 fn no_frame_cuts_through_itself() {
     let bones = skeleton::bones();
-    let all = triangles(&cast(bones.len()));
+    let all = triangles(shared_cast());
     let name = |part: usize| NAMES.get(part).copied().unwrap_or("shield");
     let mut faults = Vec::new();
     let mut look = |what: String, pose: &Pose| {
@@ -195,7 +195,7 @@ fn no_frame_cuts_through_itself() {
 #[test]
 fn an_arm_through_the_trunk_is_found() {
     let bones = skeleton::bones();
-    let all = triangles(&cast(bones.len()));
+    let all = triangles(shared_cast());
     let mut pose = poses::charge();
     pose.arms[1].wrist = DVec3::new(0.0, 1.2, -0.05);
     assert!(cuts(&all, &bones, &pose).contains_key(&(0, 9)));

@@ -211,6 +211,13 @@ pub(super) fn hero() -> Model {
     model
 }
 
+/// What the tests look at, made once.
+#[cfg(test)]
+fn shared_cast() -> &'static Cast {
+    static CAST: std::sync::OnceLock<Cast> = std::sync::OnceLock::new();
+    CAST.get_or_init(|| cast(skeleton::bones().len()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,9 +225,8 @@ mod tests {
     /// Over all materials, every edge has exactly two triangles, wound alike.
     #[test]
     fn the_figure_is_closed() {
-        let held = figure(&Body::new(), skeleton::bones().len());
         let mut edges: BTreeMap<_, (i32, i32)> = BTreeMap::new();
-        for Held { part, .. } in &held {
+        for Held { part, .. } in &shared_cast().figure {
             let key = |i: u32| part.positions[i as usize].as_vec3().to_array().map(f32::to_bits);
             for t in part.indices.chunks_exact(3) {
                 for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
@@ -245,9 +251,8 @@ mod tests {
 
     #[test]
     fn triangles_are_even() {
-        let held = figure(&Body::new(), skeleton::bones().len());
         let mut qualities = Vec::new();
-        for Held { part, .. } in &held {
+        for Held { part, .. } in &shared_cast().figure {
             for t in part.indices.chunks_exact(3) {
                 qualities.push(quality([0, 1, 2].map(|i| part.positions[t[i] as usize])));
             }
@@ -256,14 +261,13 @@ mod tests {
         let worst = qualities.iter().copied().fold(1.0, f64::min);
         println!("{} triangles: mean {mean:.3}, worst {worst:.4}", qualities.len());
         assert!((20_000..60_000).contains(&qualities.len()));
-        assert!(mean > 0.85 && worst > 0.015, "mean {mean}, worst {worst}");
+        assert!(mean > 0.9 && worst > 0.02, "mean {mean}, worst {worst}");
     }
 
     /// Weights change smoothly: neighbours across an edge share most of their bones.
     #[test]
     fn weights_add_up_and_are_smooth() {
-        let held = figure(&Body::new(), skeleton::bones().len());
-        for Held { part, weights } in &held {
+        for Held { part, weights } in &shared_cast().figure {
             for w in weights {
                 assert!((w.iter().sum::<f64>() - 1.0).abs() < 1e-9);
                 let (_, shares) = weights::quantised(w);

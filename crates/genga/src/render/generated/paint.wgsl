@@ -33,15 +33,45 @@ var emissive_sampler: sampler;
 @group(1) @binding(4)
 var id_texture: texture_2d<f32>;
 
+@group(2) @binding(0)
+var<uniform> highlights: HighlightBlock;
+
+@group(2) @binding(1)
+var drawings: texture_2d_array<f32>;
+
+@group(2) @binding(2)
+var masks: texture_2d_array<f32>;
+
+@group(2) @binding(3)
+var normal_maps: texture_2d_array<f32>;
+
+@group(2) @binding(4)
+var clamped: sampler;
+
+@group(2) @binding(5)
+var repeated: sampler;
+
 const DRAW_ALPHA_BLEND: u32 = 4u;
 
 const DRAW_ALPHA_MASK: u32 = 2u;
 
 const DRAW_UNLIT: u32 = 1u;
 
+const FAR_OUTSIDE: f32 = 10000.0;
+
+const FIELD_EXTENT: f32 = 1.25;
+
 const FRAME_LINEAR_BLEND: u32 = 1u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
+const HIGHLIGHT_IN_LIGHT: u32 = 4u;
+
+const HIGHLIGHT_IN_SHADOW: u32 = 8u;
+
+const HIGHLIGHT_ON_PANORAMA: u32 = 1u;
+
+const HIGHLIGHT_REPLACES: u32 = 2u;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
@@ -59,11 +89,19 @@ const METHOD_RIM: u32 = 4u;
 
 const MIN_WIDTH: f32 = 0.0001;
 
+const NORMAL_MAP_SIZE: f32 = 64.0;
+
+const OUTPUT_COORDINATES: u32 = 2u;
+
+const OUTPUT_HIGHLIGHT: u32 = 1u;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
+
+const TAU: f32 = 6.2831853;
 
 struct Detect {
     depth: f32,
@@ -121,6 +159,34 @@ struct Frame {
     reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
+}
+
+struct Highlight {
+    center: vec3f,
+    gamma: f32,
+    axis: vec3f,
+    axis_length: f32,
+    normals_x: vec4f,
+    normals_y: vec4f,
+    normals_z: vec4f,
+    right: vec3f,
+    drawing: u32,
+    up: vec3f,
+    mask: i32,
+    middle: vec3f,
+    normal_map: i32,
+    drawing_from_angles: vec4f,
+    panorama: vec2f,
+    split: vec2f,
+    square: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    color: vec4f
+}
+
+struct HighlightBlock {
+    items: array<Highlight, 4>
 }
 
 struct Hull {
@@ -198,6 +264,15 @@ struct Rule {
     id_color: vec4f
 }
 
+struct Shaded {
+    color: vec4f,
+    look: u32,
+    t: f32,
+    t_width: f32,
+    rim: f32,
+    rim_width: f32
+}
+
 struct Surface {
     @invariant @builtin(position)
     clip: vec4f,
@@ -250,10 +325,42 @@ struct VertexInput {
     draw: u32
 }
 
+fn brightest_tone(look: u32, t: f32, width: f32) -> f32 {
+    let last = max(looks[look].tone_count, 1u) - 1u;
+    let edge = max(max(looks[look].tones[last].softness, width), MIN_WIDTH);
+    return select(1.0, saturate((t - looks[look].tones[last].at) / edge + 0.5), last > 0u);
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
+    let r = vec3f(dot(highlights.items[i].right, reflected.xyz), dot(highlights.items[i].up, reflected.xyz), dot(highlights.items[i].middle, reflected.xyz));
+    var u = r.xy / max(reflected.w + r.z, 1e-30);
+    if (ON_PANORAMA && (highlights.items[i].flags & HIGHLIGHT_ON_PANORAMA) != 0u) {
+        let yaw = atan2(r.x, r.z) - highlights.items[i].panorama.x;
+        let pitch = atan2(-r.y, length(r.xz)) - highlights.items[i].panorama.y;
+        let m = highlights.items[i].drawing_from_angles;
+        u = m.xy * (yaw - TAU * round(yaw / TAU)) - m.zw * pitch;
+    }
+    if (IS_RESHAPED) {
+        u = clamp(u, vec2f(-FAR_OUTSIDE), vec2f(FAR_OUTSIDE));
+        u -= highlights.items[i].split * select(vec2f(-1.0), vec2f(1.0), u >= vec2f(0.0));
+        let corner = max(abs(u.x), abs(u.y)) / max(length(u), 1e-6);
+        u *= mix(1.0, corner, highlights.items[i].square);
+    }
+    return u;
+}
+
+fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
+    let u = drawing_coordinates(i, reflected);
+    let uv = u * vec2f(0.5, -0.5) / FIELD_EXTENT + 0.5;
+    let inside = textureSampleLevel(drawings, clamped, uv, highlights.items[i].drawing, 0.0).x;
+    let beyond = max(max(abs(u.x), abs(u.y)) - FIELD_EXTENT, 0.0);
+    return vec3f(u, min(inside + beyond, FAR_OUTSIDE));
 }
 
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
@@ -267,6 +374,44 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
         return frame.pixel_footprint;
     }
     return frame.pixel_footprint * distance;
+}
+
+fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
+    var distances = vec4f(FAR_OUTSIDE);
+    if (HIGHLIGHTS > 0u) {
+        let first = reflected_view(0u, p_in_world, normal, to_eye);
+        distances.x = drawing_lookup(0u, first).z;
+        if (HIGHLIGHTS > 1u) {
+            distances.y = next_lookup(1u, first, p_in_world, normal, to_eye);
+        }
+        if (HIGHLIGHTS > 2u) {
+            distances.z = next_lookup(2u, first, p_in_world, normal, to_eye);
+        }
+        if (HIGHLIGHTS > 3u) {
+            distances.w = next_lookup(3u, first, p_in_world, normal, to_eye);
+        }
+    }
+    let dx = dpdx(distances);
+    let dy = dpdy(distances);
+    let width = sqrt(dx * dx + dy * dy);
+    return saturate(0.5 - distances / max(width, vec4f(1e-6)));
+}
+
+fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
+    var left = 1.0;
+    if (HAS_MASK) {
+        let flags = highlights.items[i].flags;
+        if ((flags & HIGHLIGHT_IN_LIGHT) != 0u) {
+            left = lit;
+        }
+        if ((flags & HIGHLIGHT_IN_SHADOW) != 0u) {
+            left = 1.0 - lit;
+        }
+        let layer = highlights.items[i].mask;
+        let drawn = textureSampleLevel(masks, repeated, uv, max(layer, 0), 0.0).x;
+        left *= select(1.0, drawn, layer >= 0);
+    }
+    return left;
 }
 
 fn hsv_from_rgb(c: vec3f) -> vec3f {
@@ -335,6 +480,17 @@ fn look_index(in: Surface, base: vec3f) -> u32 {
     return draws[in.draw].look_first + combination;
 }
 
+fn mapped_normal(i: u32, in_node: vec3f) -> vec3f {
+    let sum = max(abs(in_node.x) + abs(in_node.y) + abs(in_node.z), 1e-30);
+    var o = in_node.xy / sum;
+    if (in_node.z < 0.0) {
+        o = (1.0 - abs(o.yx)) * select(vec2f(-1.0), vec2f(1.0), o >= vec2f(0.0));
+    }
+    let uv = ((o * 0.5 + 0.5) * NORMAL_MAP_SIZE + 1.0) / (NORMAL_MAP_SIZE + 2.0);
+    let n = textureSampleLevel(normal_maps, clamped, uv, highlights.items[i].normal_map, 0.0).xyz;
+    return highlights.items[i].normals_x.xyz * n.x + highlights.items[i].normals_y.xyz * n.y + highlights.items[i].normals_z.xyz * n.z;
+}
+
 fn material_sample(in: Surface) -> MaterialSample {
     let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
     let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
@@ -350,6 +506,13 @@ fn material_sample(in: Surface) -> MaterialSample {
     return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
+fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
+    if (SHARE_PROXY) {
+        return drawing_lookup(i, first).z;
+    }
+    return drawing_lookup(i, reflected_view(i, p_in_world, normal, to_eye)).z;
+}
+
 fn octahedral_unpack(bits: u32) -> vec3f {
     let p = unpack2x16snorm(bits);
     var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
@@ -362,6 +525,23 @@ fn octahedral_unpack(bits: u32) -> vec3f {
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn proxy_normal(i: u32, p_in_world: vec3f) -> vec3f {
+    var q = p_in_world - highlights.items[i].center;
+    if (HAS_AXIS) {
+        let axis = highlights.items[i].axis;
+        q -= axis * clamp(dot(q, axis), 0.0, highlights.items[i].axis_length);
+    }
+    if (!HAS_MATRIX) {
+        return q;
+    }
+    let d = vec4f(q, 1.0);
+    let n = vec3f(dot(highlights.items[i].normals_x, d), dot(highlights.items[i].normals_y, d), dot(highlights.items[i].normals_z, d));
+    if (HAS_NORMAL_MAP && highlights.items[i].normal_map >= 0) {
+        return mapped_normal(i, n);
+    }
+    return n;
 }
 
 fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
@@ -400,6 +580,16 @@ fn ramp_picture(row: u32, t: f32) -> vec3f {
     return mix(textureLoad(ramp_pictures, vec2u(left, row), 0).rgb, textureLoad(ramp_pictures, vec2u(right, row), 0).rgb, x - floor(x));
 }
 
+fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
+    var n = proxy_normal(i, p_in_world);
+    if (BLENDS_NORMALS) {
+        let gamma = highlights.items[i].gamma;
+        n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
+    }
+    let n_squared = dot(n, n);
+    return vec4f(2.0 * dot(n, to_eye) * n - n_squared * to_eye, n_squared);
+}
+
 fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
     var holds = true;
     if ((rule.conditions & RULE_BASE_COLOR) != 0u) {
@@ -421,60 +611,7 @@ fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
     return holds;
 }
 
-fn sign_not_zero(v: vec2f) -> vec2f {
-    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
-}
-
-fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
-    let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
-}
-
-fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return frame.eye.xyz;
-    }
-    return normalize(frame.eye.xyz - p_in_world);
-}
-
-fn tone_color(look: u32, index: u32) -> RampColor {
-    let color = looks[look].tones[index].color;
-    if (looks[look].tones[index].replace > 0.5) {
-        return RampColor(vec3f(1.0 - color.a), color.rgb * color.a);
-    }
-    return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
-}
-
-fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
-    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
-}
-
-fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
-    if (clip.w > 0.5 * frame.depth_range.x) {
-        let pixels = picture_from_clip(frame, clip);
-        if (all(abs(pixels) < vec2f(65536.0))) {
-            let grid = 256.0 * texels_per_pixel;
-            let snapped = round(pixels * grid) / grid;
-            let part = (snapped - frame.viewport_origin) / frame.viewport_size;
-            return vec4f((part - 0.5) * vec2f(2.0, -2.0) * clip.w, clip.z, clip.w);
-        }
-    }
-    let scale = frame.picture_size / frame.viewport_size;
-    let offset = (frame.picture_size - 2.0 * frame.viewport_origin) / frame.viewport_size - 1.0;
-    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
-}
-
-@fragment
-fn hull_fragment(in: Hull) -> @location(0) vec4f {
-    if (in.shown <= 0.0) {
-        discard;
-    }
-    let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
-    return vec4f(line.rgb * line.a, line.a);
-}
-
-@fragment
-fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+fn shade(in: Surface, front_facing: bool) -> Shaded {
     let material = material_sample(in);
     let draw_flags = draws[in.draw].flags;
     let normal = facing_normal(in, front_facing);
@@ -526,16 +663,130 @@ fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
         color = vec3f(0.0);
         alpha = 0.0;
     }
-    var result = vec4f(color * alpha, alpha);
-    if (frame.line_method == METHOD_RIM && looks[look_index].line_width > 0.0) {
-        let soft = max(max(looks[look_index].rim_softness, rim_width), 0.0001);
-        let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
-        let ink = saturate((threshold - rim) / soft + 0.5);
-        let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
-        let strength = ink * line.a * select(1.0, alpha, (draw_flags & DRAW_ALPHA_BLEND) != 0u);
-        result = vec4f(mix(result.rgb, line.rgb, strength), mix(result.a, 1.0, strength));
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, rim, rim_width);
+}
+
+fn sign_not_zero(v: vec2f) -> vec2f {
+    return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
+    let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+}
+
+fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.eye.xyz;
     }
-    return result;
+    return normalize(frame.eye.xyz - p_in_world);
+}
+
+fn tone_color(look: u32, index: u32) -> RampColor {
+    let color = looks[look].tones[index].color;
+    if (looks[look].tones[index].replace > 0.5) {
+        return RampColor(vec3f(1.0 - color.a), color.rgb * color.a);
+    }
+    return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
+}
+
+fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
+    return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
+}
+
+fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
+    if (clip.w > 0.5 * frame.depth_range.x) {
+        let pixels = picture_from_clip(frame, clip);
+        if (all(abs(pixels) < vec2f(65536.0))) {
+            let grid = 256.0 * texels_per_pixel;
+            let snapped = round(pixels * grid) / grid;
+            let part = (snapped - frame.viewport_origin) / frame.viewport_size;
+            return vec4f((part - 0.5) * vec2f(2.0, -2.0) * clip.w, clip.z, clip.w);
+        }
+    }
+    let scale = frame.picture_size / frame.viewport_size;
+    let offset = (frame.picture_size - 2.0 * frame.viewport_origin) / frame.viewport_size - 1.0;
+    return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
+}
+
+fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
+    let color = highlights.items[i].color;
+    let strength = color.a * coverage;
+    let alpha = mix(below.a, 1.0, strength);
+    if (REPLACES && (highlights.items[i].flags & HIGHLIGHT_REPLACES) != 0u) {
+        return vec4f(mix(below.rgb, color.rgb, strength), alpha);
+    }
+    let added = min(below.rgb + color.rgb * strength, vec3f(alpha));
+    return vec4f(max(below.rgb, added), alpha);
+}
+
+fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
+    let look_index = shaded.look;
+    if (frame.line_method != METHOD_RIM || looks[look_index].line_width <= 0.0) {
+        return color;
+    }
+    let soft = max(max(looks[look_index].rim_softness, shaded.rim_width), 0.0001);
+    let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
+    let ink = saturate((threshold - shaded.rim) / soft + 0.5);
+    let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
+    let is_blended = (draws[in.draw].flags & DRAW_ALPHA_BLEND) != 0u;
+    let strength = ink * line.a * select(1.0, shaded.color.a, is_blended);
+    return vec4f(mix(color.rgb, line.rgb, strength), mix(color.a, 1.0, strength));
+}
+
+@fragment
+fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let normal = facing_normal(in, front_facing);
+    let eye = to_eye(frame, in.p_in_world);
+    let coverage = highlight_coverage(in.p_in_world, normal, eye);
+    let shaded = shade(in, front_facing);
+    var color = shaded.color;
+    if (OUTPUT == OUTPUT_COORDINATES) {
+        if (HIGHLIGHTS == 0u) {
+            return vec4f(0.0);
+        }
+        let found = drawing_lookup(0u, reflected_view(0u, in.p_in_world, normal, eye));
+        return vec4f(clamp(found, vec3f(-10000.0), vec3f(10000.0)), 1.0);
+    }
+    if (OUTPUT == OUTPUT_HIGHLIGHT) {
+        color = vec4f(0.0);
+    }
+    var lit = 1.0;
+    if (HAS_MASK) {
+        lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
+    }
+    let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
+    if (HIGHLIGHTS > 0u) {
+        color = with_highlight(0u, color, shown * coverage.x * highlight_mask(0u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 1u) {
+        color = with_highlight(1u, color, shown * coverage.y * highlight_mask(1u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 2u) {
+        color = with_highlight(2u, color, shown * coverage.z * highlight_mask(2u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 3u) {
+        color = with_highlight(3u, color, shown * coverage.w * highlight_mask(3u, in.id_uv, lit));
+    }
+    if (OUTPUT == OUTPUT_HIGHLIGHT) {
+        return color;
+    }
+    return with_rim(in, shaded, color);
+}
+
+@fragment
+fn hull_fragment(in: Hull) -> @location(0) vec4f {
+    if (in.shown <= 0.0) {
+        discard;
+    }
+    let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
+    return vec4f(line.rgb * line.a, line.a);
+}
+
+@fragment
+fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let shaded = shade(in, front_facing);
+    return with_rim(in, shaded, shaded.color);
 }
 
 @vertex
@@ -568,3 +819,25 @@ fn hull_vertex(in: VertexInput) -> Hull {
 fn paint_vertex(in: VertexInput) -> Surface {
     return surface_from_vertex(in, frame.paint_scale);
 }
+
+override BLENDS_NORMALS: bool = false;
+
+override HAS_AXIS: bool = false;
+
+override HAS_MASK: bool = false;
+
+override HAS_MATRIX: bool = false;
+
+override HAS_NORMAL_MAP: bool = false;
+
+override HIGHLIGHTS: u32 = 0u;
+
+override IS_RESHAPED: bool = false;
+
+override ON_PANORAMA: bool = false;
+
+override OUTPUT: u32 = 0u;
+
+override REPLACES: bool = false;
+
+override SHARE_PROXY: bool = false;

@@ -357,6 +357,135 @@ const _: () = assert!(
     std::mem::offset_of!(Frame, detect) == 576,
     "offset of Frame.detect does not match WGSL"
 );
+pub(crate) const HIGHLIGHT_IN_LIGHT: u32 = 4u32;
+pub(crate) const HIGHLIGHT_IN_SHADOW: u32 = 8u32;
+pub(crate) const HIGHLIGHT_ON_PANORAMA: u32 = 1u32;
+pub(crate) const HIGHLIGHT_REPLACES: u32 = 2u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Highlight {
+    pub(crate) center: glam::Vec3,
+    pub(crate) gamma: f32,
+    pub(crate) axis: glam::Vec3,
+    pub(crate) axis_length: f32,
+    pub(crate) normals_x: glam::Vec4,
+    pub(crate) normals_y: glam::Vec4,
+    pub(crate) normals_z: glam::Vec4,
+    pub(crate) right: glam::Vec3,
+    pub(crate) drawing: u32,
+    pub(crate) up: glam::Vec3,
+    pub(crate) mask: i32,
+    pub(crate) middle: glam::Vec3,
+    pub(crate) normal_map: i32,
+    pub(crate) drawing_from_angles: glam::Vec4,
+    pub(crate) panorama: glam::Vec2,
+    pub(crate) split: glam::Vec2,
+    pub(crate) square: f32,
+    pub(crate) flags: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) color: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< Highlight > () == 192, "size of Highlight does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, center) == 0,
+    "offset of Highlight.center does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, gamma) == 12,
+    "offset of Highlight.gamma does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, axis) == 16,
+    "offset of Highlight.axis does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, axis_length) == 28,
+    "offset of Highlight.axis_length does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, normals_x) == 32,
+    "offset of Highlight.normals_x does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, normals_y) == 48,
+    "offset of Highlight.normals_y does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, normals_z) == 64,
+    "offset of Highlight.normals_z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, right) == 80,
+    "offset of Highlight.right does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, drawing) == 92,
+    "offset of Highlight.drawing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, up) == 96,
+    "offset of Highlight.up does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, mask) == 108,
+    "offset of Highlight.mask does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, middle) == 112,
+    "offset of Highlight.middle does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, normal_map) == 124,
+    "offset of Highlight.normal_map does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, drawing_from_angles) == 128,
+    "offset of Highlight.drawing_from_angles does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, panorama) == 144,
+    "offset of Highlight.panorama does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, split) == 152,
+    "offset of Highlight.split does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, square) == 160,
+    "offset of Highlight.square does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, flags) == 164,
+    "offset of Highlight.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, reserved_0) == 168,
+    "offset of Highlight.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, reserved_1) == 172,
+    "offset of Highlight.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Highlight, color) == 176,
+    "offset of Highlight.color does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct HighlightBlock {
+    pub(crate) items: [Highlight; 4],
+}
+const _: () = assert!(
+    std::mem::size_of::< HighlightBlock > () == 768,
+    "size of HighlightBlock does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(HighlightBlock, items) == 0,
+    "offset of HighlightBlock.items does not match WGSL"
+);
 pub(crate) const ID_OBJECT: u32 = 16777215u32;
 pub(crate) const ID_SETS_SHIFT: u32 = 24u32;
 pub(crate) const ID_THROUGH_SHIFT: u32 = 28u32;

@@ -15,6 +15,8 @@ pub(crate) enum Binding {
     Float,
     /// A float texture that is filtered.
     Filtered,
+    /// Layers of float textures that are filtered.
+    FilteredLayers,
     /// An unsigned-integer texture.
     Uint,
     /// A depth texture.
@@ -48,6 +50,11 @@ impl Binding {
             }
             Self::Float => texture(wgpu::TextureSampleType::Float { filterable: false }),
             Self::Filtered => texture(wgpu::TextureSampleType::Float { filterable: true }),
+            Self::FilteredLayers => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
             Self::Uint => texture(wgpu::TextureSampleType::Uint),
             Self::Depth => texture(wgpu::TextureSampleType::Depth),
             Self::DepthSamples => wgpu::BindingType::Texture {

@@ -1,16 +1,30 @@
 //! Surfaces in colour; the inverted hull, if the style asks for it.
 
 use super::surface::{
-    SurfacePipelines, Variant, cleared_depth, cleared_samples, draw_items, shader, sorted_items,
+    HighlightVariant, SurfacePipelines, Variant, cleared_depth, cleared_samples, draw_items,
+    shader, sorted_items,
 };
 use crate::render::gpu::timing::Timer;
 use crate::render::{
     frame::Aim,
     layouts::Layouts,
-    prepare::Prepared,
+    prepare::{DrawItem, Prepared},
     targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
+
+/// What the paint pass draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PaintOutput {
+    /// Surfaces with their highlights.
+    All,
+    /// Surfaces without highlights.
+    Plain,
+    /// Highlights alone; surfaces only hide them.
+    Highlights,
+    /// Where on its first highlight's drawing each surface lies, and the distance to its outline.
+    Coordinates,
+}
 
 pub(crate) struct PaintPass {
     surfaces: SurfacePipelines,
@@ -25,7 +39,8 @@ impl PaintPass {
             SurfacePipelines::new(device, layouts, label, module, entries, &formats)
         };
         Self {
-            surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"]),
+            surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"])
+                .with_highlights(device, layouts, "highlight_fragment"),
             hulls: make("hull", module, ["hull_vertex", "hull_fragment"]),
         }
     }
@@ -36,7 +51,7 @@ impl PaintPass {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         targets: &Targets,
-        aim: &Aim,
+        (aim, output): (&Aim, PaintOutput),
         timer: &mut Timer,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -55,18 +70,40 @@ impl PaintPass {
         let samples = paint_samples(targets.size.paint_scale);
         aim.set_viewport(&mut pass, targets.size.paint_scale as f32);
         let [opaque, blended] = sorted_items(prepared, aim.eye);
-        let items = opaque.iter().map(|&(i, item)| (i, item, Variant::of(item, samples)));
+        let variant = |item: &DrawItem| {
+            let highlights = highlight_variant(prepared, item, output);
+            Variant { highlights, ..Variant::of(item, samples) }
+        };
+        let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
-        if prepared.style.lines.method == LineMethod::Hull {
+        let has_paint = matches!(output, PaintOutput::All | PaintOutput::Plain);
+        if has_paint && prepared.style.lines.method == LineMethod::Hull {
             let cull = Some(wgpu::Face::Front);
-            let items = opaque.iter().map(|&(i, item)| {
-                (i, item, Variant { mirrored: item.mirrored, cull, blend: false, samples })
-            });
+            let items = opaque
+                .iter()
+                .map(|&(i, item)| (i, item, Variant { cull, ..Variant::of(item, samples) }));
             draw_items(device, &mut pass, prepared, &self.hulls, items);
         }
         let items = blended
             .iter()
-            .map(|&(i, item)| (i, item, Variant { blend: true, ..Variant::of(item, samples) }));
+            .filter(|_| output != PaintOutput::Coordinates)
+            .map(|&(i, item)| (i, item, Variant { blend: true, ..variant(item) }));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
     }
+}
+
+/// How a draw's pipeline draws highlights.
+fn highlight_variant(
+    prepared: &Prepared,
+    item: &DrawItem,
+    output: PaintOutput,
+) -> Option<HighlightVariant> {
+    let variant = prepared.highlights.variant(item.highlights);
+    let output = match output {
+        PaintOutput::All => return (variant.count > 0).then_some(variant),
+        PaintOutput::Plain => return None,
+        PaintOutput::Highlights => 1,
+        PaintOutput::Coordinates => 2,
+    };
+    Some(HighlightVariant { output, ..variant })
 }

@@ -23,13 +23,33 @@ pub(crate) struct Variant {
     pub(crate) blend: bool,
     /// Samples per texel.
     pub(crate) samples: u32,
+    /// With highlights on top; `None` for a pipeline that knows nothing of them.
+    pub(crate) highlights: Option<HighlightVariant>,
+}
+
+/// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct HighlightVariant {
+    /// Highlights of the block that are drawn.
+    pub(crate) count: u32,
+    pub(crate) on_panorama: bool,
+    pub(crate) share_proxy: bool,
+    pub(crate) has_axis: bool,
+    pub(crate) has_matrix: bool,
+    pub(crate) has_normal_map: bool,
+    pub(crate) blends_normals: bool,
+    pub(crate) is_reshaped: bool,
+    pub(crate) replaces: bool,
+    pub(crate) has_mask: bool,
+    /// An `OUTPUT_*` of `paint.wesl`.
+    pub(crate) output: u32,
 }
 
 impl Variant {
     /// As the material of a draw asks.
     pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false, samples }
+        Self { mirrored: item.mirrored, cull, blend: false, samples, highlights: None }
     }
 }
 
@@ -40,6 +60,8 @@ pub(crate) struct SurfacePipelines {
     layout: wgpu::PipelineLayout,
     vertex_entry: &'static str,
     fragment_entry: &'static str,
+    /// Layout and fragment stage of the pipelines with highlights.
+    highlit: Option<(wgpu::PipelineLayout, &'static str)>,
     formats: Vec<wgpu::TextureFormat>,
     made: Mutex<HashMap<Variant, Arc<wgpu::RenderPipeline>>>,
 }
@@ -59,9 +81,22 @@ impl SurfacePipelines {
             layout: pipeline_layout(device, label, &[&layouts.surface, &layouts.material]),
             vertex_entry,
             fragment_entry,
+            highlit: None,
             formats: formats.to_vec(),
             made: Mutex::new(HashMap::new()),
         }
+    }
+
+    /// Adds pipelines with highlights, by another fragment stage of the same module.
+    pub(crate) fn with_highlights(
+        mut self,
+        device: &wgpu::Device,
+        layouts: &Layouts,
+        fragment_entry: &'static str,
+    ) -> Self {
+        let groups = [&layouts.surface, &layouts.material, &layouts.highlights];
+        self.highlit = Some((pipeline_layout(device, self.label, &groups), fragment_entry));
+        self
     }
 
     /// The pipeline of a variant.
@@ -79,9 +114,29 @@ impl SurfacePipelines {
                 Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })
             })
             .collect();
+        let (layout, fragment_entry) = match (&self.highlit, variant.highlights) {
+            (Some((layout, entry)), Some(_)) => (layout, *entry),
+            _ => (&self.layout, self.fragment_entry),
+        };
+        let highlights = variant.highlights.unwrap_or_default();
+        let yes = |on: bool| f64::from(u8::from(on));
+        let constants = [
+            ("HIGHLIGHTS", f64::from(highlights.count)),
+            ("ON_PANORAMA", yes(highlights.on_panorama)),
+            ("SHARE_PROXY", yes(highlights.share_proxy)),
+            ("HAS_AXIS", yes(highlights.has_axis)),
+            ("HAS_MATRIX", yes(highlights.has_matrix)),
+            ("HAS_NORMAL_MAP", yes(highlights.has_normal_map)),
+            ("BLENDS_NORMALS", yes(highlights.blends_normals)),
+            ("IS_RESHAPED", yes(highlights.is_reshaped)),
+            ("REPLACES", yes(highlights.replaces)),
+            ("HAS_MASK", yes(highlights.has_mask)),
+            ("OUTPUT", f64::from(highlights.output)),
+        ];
+        let constants = if variant.highlights.is_some() { &constants[..] } else { &[] };
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
-            layout: Some(&self.layout),
+            layout: Some(layout),
             vertex: wgpu::VertexState {
                 module: &self.module,
                 entry_point: Some(self.vertex_entry),
@@ -122,8 +177,11 @@ impl SurfacePipelines {
             multisample: wgpu::MultisampleState { count: variant.samples, ..Default::default() },
             fragment: Some(wgpu::FragmentState {
                 module: &self.module,
-                entry_point: Some(self.fragment_entry),
-                compilation_options: Default::default(),
+                entry_point: Some(fragment_entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants,
+                    ..Default::default()
+                },
                 targets: &targets,
             }),
             multiview_mask: None,
@@ -186,8 +244,13 @@ pub(crate) fn draw_items<'a>(
     items: impl Iterator<Item = (usize, &'a DrawItem, Variant)>,
 ) {
     pass.set_bind_group(0, &prepared.surface_group, &[]);
-    let (mut variant_set, mut material_set) = (None, None);
+    let (mut variant_set, mut material_set, mut block_set) = (None, None, None);
     for (index, item, variant) in items {
+        if variant.highlights.is_some() && block_set != Some(item.highlights) {
+            let offset = prepared.highlights.offset(item.highlights);
+            pass.set_bind_group(2, prepared.highlights.group(), &[offset]);
+            block_set = Some(item.highlights);
+        }
         if variant_set != Some(variant) {
             pass.set_pipeline(&pipelines.get(device, variant));
             variant_set = Some(variant);

@@ -9,6 +9,8 @@ use crate::style::{PinnedTo, StyleLight};
 /// A light of the scene with the place of its node.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedLight {
+    /// Its node.
+    pub(crate) node: usize,
     kind: LightKind,
     strength: f32,
     world_from_light: Affine3A,
@@ -29,6 +31,7 @@ pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> V
             let light = scene.lights.get(node.light?)?;
             let luminance = light.color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
             Some(PlacedLight {
+                node: i,
                 kind: light.kind,
                 strength: (light.intensity * luminance).max(0.0),
                 world_from_light: pose.world_from_node[i],

@@ -1,6 +1,7 @@
 //! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
 
 pub(crate) mod geometry;
+pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
@@ -14,6 +15,7 @@ use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
     geometry::{Chunk, Geometry, GeometryBuilder},
+    highlights::{HighlightSets, Highlights},
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
@@ -43,13 +45,14 @@ pub struct Prepared {
     pub(crate) lights: Vec<PlacedLight>,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
+    pub(crate) highlights: Highlights,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     /// Nodes that depth curves count from: number, and place in the present pose.
     anchors: HashMap<String, (usize, Vec3)>,
     draw_values: Vec<Draw>,
     warnings: Vec<String>,
-    node_count: usize,
+    pub(crate) node_count: usize,
 }
 
 /// One chunk of a primitive of a node.
@@ -57,6 +60,8 @@ pub(crate) struct DrawItem {
     pub(crate) chunk: Chunk,
     pub(crate) world: Place,
     pub(crate) material: usize,
+    /// Which set of highlights it carries.
+    pub(crate) highlights: usize,
     pub(crate) double_sided: bool,
     pub(crate) blend: bool,
     pub(crate) mirrored: bool,
@@ -169,6 +174,7 @@ impl Prepared {
         for (node, place) in self.anchors.values_mut() {
             *place = pose.world_from_node[*node].translation.into();
         }
+        self.highlights.set_pose(pose);
         self.bounds = scene.bounds(pose);
     }
 }
@@ -182,6 +188,7 @@ struct Builder<'a> {
     geometry: GeometryBuilder,
     textures: Textures<'a>,
     looks: Looks<'a>,
+    highlights: HighlightSets<'a>,
     /// By mesh, then by primitive.
     chunks: HashMap<usize, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
@@ -212,6 +219,7 @@ impl<'a> Builder<'a> {
             geometry: GeometryBuilder::new(),
             textures: Textures::new(device, queue, scene),
             looks: Looks::new(style),
+            highlights: HighlightSets::new(scene),
             chunks: HashMap::new(),
             materials: Vec::new(),
             material_of: HashMap::new(),
@@ -273,6 +281,7 @@ impl<'a> Builder<'a> {
             let chunks = chunks_of[p].clone();
             let look = self.looks.range(&node.name, &material.name);
             let group = self.material_group(primitive.material, material, &look);
+            let highlights = self.highlights.of(index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
                 self.deforms.push((
@@ -294,6 +303,7 @@ impl<'a> Builder<'a> {
                 self.draws.push(DrawItem {
                     world,
                     material: group,
+                    highlights,
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
@@ -435,6 +445,8 @@ impl<'a> Builder<'a> {
         let deform = self.deform_data(&geometry);
         let strokes =
             StrokeData::new(device, queue, self.layouts, &geometry, &self.draws, self.style);
+        let (sets, warned) = self.highlights.finish();
+        let highlights = Highlights::new(device, queue, self.layouts, self.scene, sets, self.style);
         let mut warnings = self.geometry.warnings;
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {
@@ -462,6 +474,7 @@ impl<'a> Builder<'a> {
                 )),
             }
         }
+        warnings.extend(warned);
         Prepared {
             anchors,
             style: self.style.clone(),
@@ -475,6 +488,7 @@ impl<'a> Builder<'a> {
             lights,
             deform,
             strokes,
+            highlights,
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,

@@ -1,0 +1,181 @@
+//! Sheets of highlights, as the figures of the paper on anime highlights show them: with keys and
+//! without, between keys, by the proxy's part in the normal, with all drawings, and on a body.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::{Error, Result, process};
+
+/// One picture of a sheet: a scene file's text, and options of `genga render`.
+struct Cell {
+    scene: String,
+    options: Vec<String>,
+}
+
+/// Rows of equal cells.
+struct Sheet {
+    name: &'static str,
+    /// Width and height of a cell in pixels.
+    cell: [u32; 2],
+    columns: usize,
+    cells: Vec<Cell>,
+}
+
+/// Draws all sheets into the folder.
+pub(super) fn sheets(root: &Path, folder: &Path) -> Result<()> {
+    let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
+    let scenes = root.join("assets/scenes/highlights");
+    let read = |name: &str| {
+        let path = scenes.join(name);
+        fs::read_to_string(&path).map_err(Error::io("cannot read", &path))
+    };
+    let (head, hero) = (read("head.scene.toml")?, read("hero.scene.toml")?);
+    let all = [views(&head)?, between(&head)?, proxies(&head)?, drawings(&head)?, body(&hero)];
+    // Beside the scenes, since their paths begin there.
+    let part = scenes.join(".sheet.scene.toml");
+    let drawn = all.iter().try_for_each(|sheet| draw(&genga, sheet, &part, folder));
+    let removed = fs::remove_file(&part).map_err(Error::io("cannot remove", &part));
+    drawn.and(removed)
+}
+
+fn draw(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<()> {
+    let [width, height] = sheet.cell;
+    let rows = sheet.cells.len().div_ceil(sheet.columns);
+    let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);
+    let file: PathBuf = folder.join(format!("highlights-{}.png", sheet.name));
+    for (i, cell) in sheet.cells.iter().enumerate() {
+        fs::write(part, &cell.scene).map_err(Error::io("cannot write", part))?;
+        let mut render = Command::new(genga);
+        render.args(["render", "--quiet"]).arg(part).args(["--size", &format!("{width}x{height}")]);
+        process::run(render.args(&cell.options).arg("--output").arg(&file))?;
+        let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
+        let picture = image::open(&file).map_err(wrong)?.into_rgba8();
+        let (column, row) = (i % sheet.columns, i / sheet.columns);
+        let at = |index: usize, side: u32| i64::from(index as u32 * side);
+        image::imageops::replace(&mut whole, &picture, at(column, width), at(row, height));
+    }
+    let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
+    image::DynamicImage::from(whole).into_rgb8().save(&file).map_err(wrong)
+}
+
+/// From where the head is seen in a row.
+const AROUND: [f32; 6] = [-22.0, 45.0, 110.0, 180.0, -125.0, -65.0];
+
+fn camera(azimuth: f32, zoom: f32) -> Vec<String> {
+    let options = ["--camera-azimuth-angle", "--camera-elevation-angle", "--camera-zoom"];
+    let values = [azimuth, 6.0, zoom];
+    options.iter().zip(values).flat_map(|(o, v)| [(*o).to_owned(), v.to_string()]).collect()
+}
+
+/// The head from all sides: above with keys, below at the light's mirror image.
+fn views(head: &str) -> Result<Sheet> {
+    let scenes = [head.to_owned(), without_keys(head)];
+    let cell =
+        |scene: &String, azimuth| Cell { scene: scene.clone(), options: camera(azimuth, 1.0) };
+    let cells =
+        scenes.iter().flat_map(|scene| AROUND.map(|azimuth| cell(scene, azimuth))).collect();
+    Ok(Sheet { name: "views", cell: [240, 240], columns: AROUND.len(), cells })
+}
+
+/// From the front to the side: keys that hold, that go evenly, and smoothly.
+fn between(head: &str) -> Result<Sheet> {
+    let mut cells = Vec::new();
+    for kind in ["hold", "linear", "smooth"] {
+        let interpolation = format!("[[highlight.key]]\ninterpolation = \"{kind}\"");
+        let scene = changed(head, "[[highlight.key]]", &interpolation)?;
+        for i in 0..5 {
+            let options = camera(15.0 * i as f32, 1.0);
+            cells.push(Cell { scene: scene.clone(), options });
+        }
+    }
+    Ok(Sheet { name: "between", cell: [200, 200], columns: 5, cells })
+}
+
+/// γ = 0, 0.9 and 1.
+fn proxies(head: &str) -> Result<Sheet> {
+    let mut cells = Vec::new();
+    for drawing in ["angel-ring", "star"] {
+        let mut scene =
+            changed(head, "drawing = \"angel-ring\"", &format!("drawing = \"{drawing}\""))?;
+        if drawing == "star" {
+            scene = changed(&scene, "size_deg = [200, 84]", "size_deg = [80, 80]")?;
+        }
+        for gamma in ["0.0", "0.9", "1.0"] {
+            let scene = changed(&scene, "level = true", &format!("level = true\ngamma = {gamma}"))?;
+            cells.push(Cell { scene, options: camera(-22.0, 1.15) });
+        }
+    }
+    Ok(Sheet { name: "proxy", cell: [320, 320], columns: 3, cells })
+}
+
+/// All drawings that come with the library.
+fn drawings(head: &str) -> Result<Sheet> {
+    let sizes = [
+        ("disc", 44, 44),
+        ("band", 170, 44),
+        ("angel-ring", 200, 84),
+        ("window", 56, 56),
+        ("star", 72, 72),
+        ("heart", 60, 60),
+        ("double-dot", 66, 66),
+        ("streak", 190, 110),
+    ];
+    let mut cells = Vec::new();
+    for (drawing, width, height) in sizes {
+        let scene = changed(head, "drawing = \"angel-ring\"", &format!("drawing = \"{drawing}\""))?;
+        let size = format!("size_deg = [{width}, {height}]");
+        let scene = changed(&scene, "size_deg = [200, 84]", &size)?;
+        cells.push(Cell { scene, options: camera(-10.0, 1.1) });
+    }
+    Ok(Sheet { name: "drawings", cell: [240, 240], columns: 4, cells })
+}
+
+/// A walking body from two sides.
+fn body(hero: &str) -> Sheet {
+    let moments = [(0.0, 30.0), (0.27, 30.0), (0.54, 30.0), (0.54, -20.0)];
+    let cell = |(time, azimuth): (f32, f32)| {
+        let mut options = camera(azimuth, 1.0);
+        options.extend(["--time".to_owned(), time.to_string()]);
+        Cell { scene: hero.to_owned(), options }
+    };
+    Sheet { name: "body", cell: [300, 400], columns: 4, cells: moments.map(cell).into() }
+}
+
+/// A scene with other words at every place of some; it must have them.
+fn changed(scene: &str, from: &str, to: &str) -> Result<String> {
+    if scene.contains(from) {
+        Ok(scene.replace(from, to))
+    } else {
+        Err(Error::new(format!("the scene of the sheets has no '{from}' any more")))
+    }
+}
+
+/// A scene without its `[[highlight.key]]` tables.
+fn without_keys(scene: &str) -> String {
+    let mut in_key = false;
+    let kept = scene.lines().filter(|line| {
+        if line.starts_with('[') {
+            in_key = *line == "[[highlight.key]]";
+        }
+        !in_key
+    });
+    kept.flat_map(|line| [line, "\n"]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_are_left_out_with_their_lines() {
+        let scene = "[[highlight]]\na = 1\n[[highlight.key]]\nb = 2\n\n[picture]\nc = 3\n";
+        assert_eq!(without_keys(scene), "[[highlight]]\na = 1\n[picture]\nc = 3\n");
+    }
+
+    #[test]
+    fn a_change_must_find_its_words() {
+        assert_eq!(changed("a b a", "a", "c").ok().as_deref(), Some("c b c"));
+        assert!(changed("a b", "d", "c").is_err());
+    }
+}
