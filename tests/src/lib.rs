@@ -11,6 +11,7 @@ pub mod pixels;
 pub mod reference;
 pub mod scenes;
 pub mod snapshots;
+pub mod waves;
 
 pub use compare::{Difference, Tolerance, difference};
 pub use eye::Eye;

@@ -31,11 +31,14 @@ pub enum LayerKind {
     Ids,
     /// Lines alone: RGBA, sRGB-encoded, straight alpha.
     Lines,
+    /// Energy of all waves together, before any colour; see [`crate::scene::Wave`].
+    Energy,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 5] = [Self::Color, Self::Depth, Self::Normal, Self::Ids, Self::Lines];
+    pub const ALL: [Self; 6] =
+        [Self::Color, Self::Depth, Self::Normal, Self::Ids, Self::Lines, Self::Energy];
 
     /// Name in file names and options.
     #[must_use]
@@ -46,6 +49,7 @@ impl LayerKind {
             Self::Normal => "normal",
             Self::Ids => "ids",
             Self::Lines => "lines",
+            Self::Energy => "energy",
         }
     }
 }
@@ -161,7 +165,7 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let reads = self.record_tile(picture, prepared, view, tile, kept)?;
         let mut reads = reads.into_iter();
-        if let Some(read) = reads.next() {
+        if let Some(Some(read)) = reads.next() {
             let bytes = read.finish(&self.device).await?;
             copy_rows(&mut picture.rgba, picture.width, &bytes, kept, 4);
         }
@@ -173,7 +177,10 @@ impl Renderer {
             width: tile.size[0] * gbuffer_scale(prepared, view),
         };
         for (layer, read) in picture.layers.iter_mut().zip(reads) {
-            texels.copy(layer, picture.width, &read.finish(&self.device).await?);
+            // Without waves there is no target and no energy.
+            if let Some(read) = read {
+                texels.copy(layer, picture.width, &read.finish(&self.device).await?);
+            }
         }
         Ok(())
     }
@@ -186,11 +193,13 @@ impl Renderer {
         view: &View,
         tile: Tile,
         kept: Tile,
-    ) -> Result<Vec<TextureRead>, RenderError> {
+    ) -> Result<Vec<Option<TextureRead>>, RenderError> {
         let whole = Output {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: true,
             linear: false,
             straight: true,
         };
@@ -208,12 +217,12 @@ impl Renderer {
                 self.composite(encoder, prepared, &targets, output, &mut Timer::off());
                 TextureRead::record(device, encoder, &shown.texture, all, offset, kept.size)
             };
-            let mut reads = vec![read_shown(&mut encoder)];
+            let mut reads = vec![Some(read_shown(&mut encoder))];
             self.queue.submit([encoder.finish()]);
             for layer in &picture.layers {
                 let mut encoder = self.encoder("layer");
-                let output = Output { background: false, ..whole };
-                reads.push(match layer.kind {
+                let output = Output { background: false, glow: false, ..whole };
+                reads.push(Some(match layer.kind {
                     LayerKind::Color | LayerKind::Lines => {
                         let paint = layer.kind == LayerKind::Color;
                         let output = Output { paint, lines: !paint, ..output };
@@ -230,7 +239,15 @@ impl Renderer {
                         read_whole(device, &mut encoder, &targets.normal.texture, all)
                     }
                     LayerKind::Ids => read_whole(device, &mut encoder, &targets.ids.texture, all),
-                });
+                    LayerKind::Energy => {
+                        let Some(waves) = &targets.waves else {
+                            reads.push(None);
+                            continue;
+                        };
+                        let energy = &waves.energy.texture;
+                        TextureRead::record(device, &mut encoder, energy, all, offset, kept.size)
+                    }
+                }));
                 self.queue.submit([encoder.finish()]);
             }
             Ok(reads)
@@ -282,6 +299,11 @@ impl Texels {
                     .collect();
                 copy_rows(values, picture_width, &distances, self.kept, 1);
             }
+            (LayerData::F32 { values, .. }, LayerKind::Energy) => {
+                let (floats, _) = bytes.as_chunks::<4>();
+                let floats: Vec<f32> = floats.iter().map(|b| f32::from_le_bytes(*b)).collect();
+                copy_rows(values, picture_width, &floats, self.kept, 1);
+            }
             (LayerData::F32 { values, .. }, _) => {
                 let half = |a: u8, b: u8| half::f16::from_le_bytes([a, b]).to_f32();
                 let normals: Vec<f32> = self
@@ -320,7 +342,7 @@ impl Texels {
 fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
     let data = match kind {
         LayerKind::Color | LayerKind::Lines => LayerData::Rgba8(vec![0; 4 * pixels]),
-        LayerKind::Depth => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
+        LayerKind::Depth | LayerKind::Energy => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
         LayerKind::Normal => LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] },
         LayerKind::Ids => LayerData::U32 { channels: 3, values: vec![0; 3 * pixels] },
     };

@@ -1,6 +1,6 @@
 //! The frame, as one list of passes.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::{
     RenderError,
@@ -18,10 +18,11 @@ use super::{
         plain::{PlainPass, PlainTargets},
         reference::ReferencePass,
         strokes::{StrokePass, stroke_group},
+        waves::WavePass,
     },
     picture::MAX_PICTURE_SIDE,
-    prepare::{Prepared, lights::lights_in_view},
-    targets::{TargetSize, Targets},
+    prepare::{Prepared, lights::lights_in_view, waves},
+    targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
 use crate::scene::{Pose, Scene};
@@ -41,6 +42,8 @@ pub struct Renderer {
     paint: PaintPass,
     composite: CompositePass,
     plain: PlainPass,
+    /// Made when the first wave is drawn.
+    waves: OnceLock<WavePass>,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
     /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
@@ -99,6 +102,7 @@ impl Renderer {
                 paint: PaintPass::new(device, &layouts),
                 composite: CompositePass::new(device),
                 plain: PlainPass::new(device, &layouts),
+                waves: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
                 turn: Mutex::new(()),
@@ -130,11 +134,30 @@ impl Renderer {
             let reason = "the pose or scene is not the one that was prepared".to_owned();
             return Err(RenderError::View { reason });
         }
+        scene.validate_waves()?;
         scope::checked(&self.device, || {
-            prepared.write_pose(&self.queue, scene, pose);
+            prepared.write_pose(&self.device, &self.queue, scene, pose);
             let mut encoder = self.encoder("deform");
             self.deform.run(&mut encoder, prepared, &mut Timer::off());
             self.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+
+    /// Takes over the waves of a scene, which may all have changed, and places them at a pose:
+    /// [`Self::set_pose`] without the geometry.
+    ///
+    /// # Errors
+    /// A wave that cannot be drawn, or what the driver refuses.
+    pub fn set_waves(
+        &self,
+        prepared: &mut Prepared,
+        scene: &Scene,
+        pose: &Pose,
+    ) -> Result<(), RenderError> {
+        scene.validate_waves()?;
+        scope::checked(&self.device, || {
+            prepared.waves.write(&self.device, &self.queue, scene, pose);
             Ok(())
         })
     }
@@ -160,6 +183,8 @@ impl Renderer {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: is_8_bit(format),
             linear: is_linear(format),
             straight: false,
         };
@@ -173,7 +198,7 @@ impl Renderer {
             self.composite.run(
                 &self.device,
                 &mut encoder,
-                &prepared.frame,
+                prepared,
                 &targets,
                 output,
                 &mut timer,
@@ -200,6 +225,7 @@ impl Renderer {
             pixels: tile.size,
             paint_scale: view.supersample,
             gbuffer_scale: gbuffer_scale(prepared, view),
+            glow_layers: prepared.waves.layers.len() as u32,
         });
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
@@ -217,6 +243,11 @@ impl Renderer {
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
         self.paint.run(device, encoder, prepared, &targets, &aim, timer);
+        if let Some(waves) = &targets.waves {
+            let pass = self.waves.get_or_init(|| WavePass::new(device));
+            self.write_wave_view(prepared, view, tile, waves.grid);
+            pass.run(device, encoder, prepared, (&targets, waves), timer);
+        }
         targets
     }
 
@@ -236,6 +267,15 @@ impl Renderer {
         let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
+        let glow = prepared.waves.glow_values(output);
+        self.queue.write_buffer(&prepared.waves.glow, 0, bytemuck::bytes_of(&glow));
+    }
+
+    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, grid: ListGrid) {
+        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+        let scale = gbuffer_scale(prepared, view);
+        let values = waves::view_values(&prepared.waves, view, &projected, tile, grid, scale);
+        self.queue.write_buffer(&prepared.waves.view, 0, bytemuck::bytes_of(&values));
     }
 
     /// Runs the last step alone, with other contents than the frame's.
@@ -247,7 +287,7 @@ impl Renderer {
         output: (&wgpu::TextureView, wgpu::TextureFormat),
         timer: &mut Timer,
     ) {
-        self.composite.run(&self.device, encoder, &prepared.frame, targets, output, timer);
+        self.composite.run(&self.device, encoder, prepared, targets, output, timer);
     }
 
     /// Draws one frame off-screen and measures it. The deformation is part of it.
@@ -301,6 +341,8 @@ impl Renderer {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: true,
             linear: false,
             straight: false,
         };
@@ -360,6 +402,15 @@ fn is_linear(format: wgpu::TextureFormat) -> bool {
             format,
             F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat | F::R16Float | F::R32Float
         )
+}
+
+/// Whether a target of that format has so few steps that a smooth glow shows bands.
+fn is_8_bit(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(
+        format,
+        F::Rgba8Unorm | F::Rgba8UnormSrgb | F::Bgra8Unorm | F::Bgra8UnormSrgb | F::Rgb10a2Unorm
+    )
 }
 
 /// Refuses impossible views before they reach the driver.

@@ -12,6 +12,11 @@ pub(crate) const IDS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Uint
 pub(crate) const MASK_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Uint;
 /// Coverage of the line sets, one a channel. Written by `strokes`, read by `composite`.
 pub(crate) const COVERAGE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Glow of the waves, a layer for each order and blend space. Written by `waves`, read by
+/// `composite`.
+pub(crate) const GLOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Energy of all waves. Written by `waves`.
+pub(crate) const ENERGY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 /// The benchmark's baseline. Written by `plain`.
 pub(crate) const PLAIN_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -29,6 +34,8 @@ pub(crate) struct TargetSize {
     pub(crate) paint_scale: u32,
     /// G-buffer texels per pixel along each axis.
     pub(crate) gbuffer_scale: u32,
+    /// Glow layers; without any there are no targets for waves.
+    pub(crate) glow_layers: u32,
 }
 
 /// A texture with its view.
@@ -50,6 +57,90 @@ pub(crate) struct Targets {
     pub(crate) depth: Target,
     pub(crate) mask: Target,
     pub(crate) coverage: Target,
+    /// One texel without waves.
+    pub(crate) glow: Target,
+    pub(crate) waves: Option<WaveTargets>,
+}
+
+/// What the waves alone need of a tile.
+pub(crate) struct WaveTargets {
+    pub(crate) energy: Target,
+    /// The nodes of each square of pixels.
+    pub(crate) lists: wgpu::Buffer,
+    pub(crate) grid: ListGrid,
+}
+
+/// How the pixels are shared out among lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ListGrid {
+    /// Pixels of a square along a side.
+    pub(crate) square: u32,
+    /// Squares in a row and in a column: one more than the tile needs, which may begin anywhere.
+    pub(crate) squares: [u32; 2],
+    /// Entries per list.
+    pub(crate) capacity: u32,
+}
+
+impl ListGrid {
+    fn new(pixels: [u32; 2]) -> Self {
+        const CAPACITY: u32 = 96;
+        const MOST_BYTES: u64 = 64 << 20;
+        let grid = |square: u32| {
+            let squares = pixels.map(|n| n.div_ceil(square) + 1);
+            Self { square, squares, capacity: CAPACITY }
+        };
+        let small = grid(8);
+        if small.bytes() <= MOST_BYTES { small } else { grid(16) }
+    }
+
+    /// Squares in all.
+    pub(crate) fn count(self) -> u32 {
+        self.squares[0] * self.squares[1]
+    }
+
+    fn bytes(self) -> u64 {
+        u64::from(self.count()) * u64::from(self.capacity + 1) * 4
+    }
+}
+
+impl WaveTargets {
+    fn new(device: &wgpu::Device, pixels: [u32; 2]) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let grid = ListGrid::new(pixels);
+        let usage = Usage::STORAGE_BINDING | Usage::COPY_SRC;
+        Self {
+            energy: target(device, "energy", pixels, 1, ENERGY_FORMAT, usage),
+            lists: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("wave lists"),
+                size: grid.bytes(),
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            }),
+            grid,
+        }
+    }
+}
+
+/// The glow's layers, or one texel if there are none.
+fn glow_target(device: &wgpu::Device, size: TargetSize) -> Target {
+    use wgpu::TextureUsages as Usage;
+    let has_glow = size.glow_layers > 0;
+    let [width, height] = if has_glow { size.pixels } else { [1, 1] };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("glow"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: size.glow_layers.max(1) },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: GLOW_FORMAT,
+        usage: Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(wgpu::TextureViewDimension::D2Array),
+        ..Default::default()
+    });
+    Target { texture, view }
 }
 
 /// A 2-D texture with its view.
@@ -96,6 +187,8 @@ impl Targets {
             depth: target(device, "depth", gbuffer, 1, DEPTH_FORMAT, read),
             mask: target(device, "line mask", gbuffer, 1, MASK_FORMAT, mask_usage),
             coverage: target(device, "line coverage", size.pixels, 1, COVERAGE_FORMAT, read),
+            glow: glow_target(device, size),
+            waves: (size.glow_layers > 0).then(|| WaveTargets::new(device, size.pixels)),
         }
     }
 }

@@ -15,6 +15,9 @@ mod pose;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod wave;
+mod wave_check;
+pub(crate) mod wave_curve;
 
 pub use bounds::Aabb;
 pub use camera::{Camera, Projection};
@@ -27,6 +30,9 @@ pub use mesh::{Mesh, MorphTarget, Primitive};
 pub use node::{Node, Skin, Transform};
 pub use pose::Pose;
 pub use validate::SceneError;
+pub use wave::{
+    Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder, WavePlacement, WaveShape, WaveTone,
+};
 
 /// A whole model or set: everything that can be drawn, posed and lit.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +59,10 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Lights, referred to by [`Node::light`].
     pub lights: Vec<Light>,
+    /// Energy waves; they may change from frame to frame.
+    pub waves: Vec<Wave>,
+    /// How they are integrated.
+    pub wave_method: WaveMethod,
 }
 
 impl Scene {

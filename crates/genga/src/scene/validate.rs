@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Interpolation, Scene};
+use super::{Interpolation, Scene, WaveMethod};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -87,6 +87,26 @@ pub enum SceneError {
         /// The vertex.
         vertex: usize,
     },
+    /// A wave cannot be drawn.
+    #[error("wave {index} '{name}' {reason}")]
+    Wave {
+        /// The wave.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The rest of the sentence.
+        reason: String,
+    },
+    /// The numbers of the waves' reference method.
+    #[error(
+        "the waves' reference method has {points} points and the thinning {thinning}: they must be 2 to 4000 and 1 to 64"
+    )]
+    WaveMethod {
+        /// m.
+        points: u32,
+        /// n.
+        thinning: u32,
+    },
 }
 
 /// Checks an index, if there is one; `what` names who refers.
@@ -105,11 +125,30 @@ fn check(
 }
 
 impl Scene {
+    /// Checks the waves alone, which may change from frame to frame.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn validate_waves(&self) -> Result<(), SceneError> {
+        for (index, wave) in self.waves.iter().enumerate() {
+            wave.check(self.nodes.len()).map_err(|reason| {
+                SceneError::Wave { index, name: wave.name.clone(), reason }
+            })?;
+        }
+        if let WaveMethod::Simpson { points, thinning } = self.wave_method
+            && !((2..=4000).contains(&points) && (1..=64).contains(&thinning))
+        {
+            return Err(SceneError::WaveMethod { points, thinning });
+        }
+        Ok(())
+    }
+
     /// Checks that every index is in range, every attribute complete and the nodes a forest.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), SceneError> {
+        self.validate_waves()?;
         for (i, node) in self.nodes.iter().enumerate() {
             let what = || format!("node {i} '{}'", node.name);
             check(&what, "mesh", node.mesh, self.meshes.len())?;

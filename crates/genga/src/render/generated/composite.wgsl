@@ -12,6 +12,12 @@ var coverage: texture_2d<f32>;
 @group(0) @binding(3)
 var mask: texture_2d<u32>;
 
+@group(0) @binding(4)
+var glow_layers: texture_2d_array<f32>;
+
+@group(0) @binding(5)
+var<uniform> glow: Glow;
+
 const FRAME_BACKGROUND: u32 = 4u;
 
 const FRAME_LINEAR_BLEND: u32 = 1u;
@@ -23,6 +29,12 @@ const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
 const FRAME_SHOW_LINES: u32 = 32u;
 
 const FRAME_SHOW_PAINT: u32 = 16u;
+
+const GLOW_LINES_THROUGH: u32 = 1u;
+
+const GLOW_OVER: u32 = 2u;
+
+const GLOW_UNDER: u32 = 0u;
 
 const LINE_CREASE: u32 = 2u;
 
@@ -68,6 +80,14 @@ struct Frame {
     detect: Detect
 }
 
+struct Glow {
+    layers: array<vec4u, 6>,
+    layer_count: u32,
+    dithered: u32,
+    reserved_0: u32,
+    reserved_1: u32
+}
+
 struct LineSet {
     color: vec4f,
     types: u32,
@@ -80,6 +100,11 @@ fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn dither(pixel: vec2f) -> vec3f {
+    let x = fract(52.9829189 * fract(0.06711056 * (pixel.x + vec3f(0.0, 5.588, 11.176)) + 0.00583715 * pixel.y));
+    return (x - 0.5) / 255.0;
 }
 
 fn encoded(color: vec4f) -> vec4f {
@@ -100,6 +125,15 @@ fn encoded(color: vec4f) -> vec4f {
         straight = display_from_linear(straight);
     }
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
+}
+
+fn glows(pixel: vec2i) -> bool {
+    for (var i = 0u; i < glow.layer_count; i++) {
+        if (any(textureLoad(glow_layers, pixel, i, 0).rgb > vec3f(0.0))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -157,6 +191,34 @@ fn paint_at(pixel: vec2i) -> vec4f {
     return sum / f32(scale * scale);
 }
 
+fn with_glow(order: u32, pixel: vec2i, is_linear: bool, color: vec4f) -> vec4f {
+    var result = color;
+    if (glow.layer_count == 0u) {
+        return result;
+    }
+    for (var i = 0u; i < glow.layer_count; i++) {
+        if (glow.layers[i].x != order) {
+            continue;
+        }
+        let added = textureLoad(glow_layers, pixel, i, 0);
+        if (all(added.rgb <= vec3f(0.0))) {
+            continue;
+        }
+        let adds_linear = glow.layers[i].y != 0u;
+        if (adds_linear == is_linear) {
+            result = vec4f(result.rgb + added.rgb, result.a);
+        }
+        else if (adds_linear) {
+            result = vec4f(display_from_linear(linear_from_display(result.rgb) + added.rgb), result.a);
+        }
+        else {
+            result = vec4f(linear_from_display(display_from_linear(result.rgb) + added.rgb), result.a);
+        }
+        result.a = max(result.a, max(result.r, max(result.g, result.b)));
+    }
+    return vec4f(result.rgb, min(result.a, 1.0));
+}
+
 @fragment
 fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
@@ -166,9 +228,12 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         let background = mix(frame.background_top, frame.background_bottom, height);
         color = vec4f(background.rgb * background.a, background.a);
     }
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    color = with_glow(GLOW_UNDER, pixel, is_linear, color);
     if ((frame.flags & FRAME_SHOW_PAINT) != 0u) {
         color = over(paint_at(pixel), color);
     }
+    color = with_glow(GLOW_LINES_THROUGH, pixel, is_linear, color);
     if ((frame.flags & FRAME_SHOW_LINES) != 0u) {
         var ink = vec4f(0.0);
         if (frame.line_method == METHOD_CONTOUR || frame.line_method == METHOD_REFERENCE) {
@@ -185,7 +250,12 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
             ink = ink.yzwx;
         }
     }
-    return encoded(color);
+    color = with_glow(GLOW_OVER, pixel, is_linear, color);
+    let result = encoded(color);
+    if (glow.dithered != 0u && glows(pixel)) {
+        return vec4f(result.rgb + dither(position.xy + frame.tile_origin), result.a);
+    }
+    return result;
 }
 
 @vertex

@@ -10,7 +10,7 @@ use crate::render::gpu::{
     bindings::{Binding as B, group, layout, pipeline_layout},
     timing::Timer,
 };
-use crate::render::targets::Targets;
+use crate::render::{prepare::Prepared, targets::Targets};
 
 pub(crate) struct CompositePass {
     layout: wgpu::BindGroupLayout,
@@ -21,7 +21,14 @@ pub(crate) struct CompositePass {
 
 impl CompositePass {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let bindings = [(0, B::Uniform), (1, B::Float), (2, B::Float), (3, B::Uint)];
+        let bindings = [
+            (0, B::Uniform),
+            (1, B::Float),
+            (2, B::Float),
+            (3, B::Uint),
+            (4, B::FloatLayers),
+            (5, B::Uniform),
+        ];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
         let module = shader(device, "composite", include_str!("../generated/composite.wgsl"));
@@ -32,7 +39,7 @@ impl CompositePass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &wgpu::Buffer,
+        prepared: &Prepared,
         targets: &Targets,
         (output, format): (&wgpu::TextureView, wgpu::TextureFormat),
         timer: &mut Timer,
@@ -43,10 +50,12 @@ impl CompositePass {
             "composite",
             &self.layout,
             &[
-                (0, frame.as_entire_binding()),
+                (0, prepared.frame.as_entire_binding()),
                 (1, R::TextureView(&targets.paint.view)),
                 (2, R::TextureView(&targets.coverage.view)),
                 (3, R::TextureView(&targets.mask.view)),
+                (4, R::TextureView(&targets.glow.view)),
+                (5, prepared.waves.glow.as_entire_binding()),
             ],
         );
         let pipeline = self.pipeline(device, format);

@@ -10,3 +10,4 @@ pub(crate) mod plain;
 pub(crate) mod reference;
 pub(crate) mod strokes;
 pub(crate) mod surface;
+pub(crate) mod waves;

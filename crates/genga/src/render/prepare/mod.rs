@@ -6,6 +6,7 @@ pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
 mod textures;
+pub(crate) mod waves;
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -17,6 +18,7 @@ use self::{
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
     textures::Textures,
+    waves::WaveData,
 };
 use super::{
     RenderError,
@@ -41,6 +43,7 @@ pub struct Prepared {
     pub(crate) lights: Vec<PlacedLight>,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
+    pub(crate) waves: WaveData,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     draw_values: Vec<Draw>,
@@ -127,8 +130,15 @@ impl Prepared {
                 == [nodes; 3]
     }
 
-    /// Brings the scene to a pose: matrices, weights, lights. The caller then runs `deform`.
-    pub(crate) fn write_pose(&mut self, queue: &wgpu::Queue, scene: &Scene, pose: &Pose) {
+    /// Brings the scene to a pose: matrices, weights, lights, waves. The caller then runs `deform`.
+    pub(crate) fn write_pose(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        pose: &Pose,
+    ) {
+        self.waves.write(device, queue, scene, pose);
         let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
         let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
         for deform in &self.deform.nodes {
@@ -440,6 +450,7 @@ impl<'a> Builder<'a> {
             lights,
             deform,
             strokes,
+            waves: WaveData::new(device, queue),
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,
