@@ -143,18 +143,6 @@ struct WaveView {
     reserved_1: u32
 }
 
-fn attenuation(wave: u32, distance: f32) -> f32 {
-    let j = waves[wave].attenuation;
-    if (j == 0.0) {
-        return 1.0;
-    }
-    let rest = clamp(1.0 - distance / waves[wave].origin.w, 0.0, 1.0);
-    if (j == 1.0) {
-        return rest;
-    }
-    return pow(rest, j);
-}
-
 fn core_at(wave: u32, distance: f32) -> f32 {
     let depth = select(distance, 1.0, (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u);
     return max(waves[wave].core, 0.5 * view.pixel_footprint * max(depth, 0.0));
@@ -200,12 +188,13 @@ fn end_energy(end: u32, wave: u32, ray: WaveRay) -> f32 {
     let core = core_at(wave, ray.middle + clamp(nearest, range.x, range.y));
     let core2 = core * core;
     let rim = select(0.0, inverseSqrt(radius * radius + core2), radius > 0.0);
-    let cuts = ceil(clamp(fading_cuts(wave, range.y - range.x), 1.0, MAX_CUTS));
+    let fades = fading_cuts(wave, ray.middle + range.x, ray.middle + range.y);
+    let cuts = ceil(clamp(fades, 1.0, MAX_CUTS));
     var energy = 0.0;
     var t0 = range.x;
     for (var i = 1.0; i <= cuts; i += 1.0) {
         let t1 = mix(range.x, range.y, i / cuts);
-        let weights = place.w * vec2f(attenuation(wave, ray.middle + t0), attenuation(wave, ray.middle + t1));
+        let weights = place.w * fading(wave, ray.middle + t0, ray.middle + t1);
         let a = away + (t0 - nearest) * ray.direction;
         let b = away + (t1 - nearest) * ray.direction;
         energy += piece_energy(a, b, weights, t1 - t0, core2, rim);
@@ -246,10 +235,34 @@ fn energy_color(wave: u32, energy: f32) -> vec4f {
     return min(low * (positive / low_energy), vec4f(60000.0));
 }
 
-fn fading_cuts(wave: u32, length: f32) -> f32 {
+fn fading(wave: u32, start: f32, end: f32) -> vec2f {
     let j = waves[wave].attenuation;
-    let is_linear = j == 0.0 || j == 1.0;
-    return select(12.0 * length / waves[wave].origin.w, 1.0, is_linear);
+    if (j == 0.0) {
+        return vec2f(1.0);
+    }
+    let rest = clamp(1.0 - vec2f(start, end) / waves[wave].origin.w, vec2f(0.0), vec2f(1.0));
+    if (j == 1.0) {
+        return rest;
+    }
+    let d = rest.x - rest.y;
+    if (d <= 0.05 * rest.x) {
+        return pow(rest, vec2f(j));
+    }
+    let power = pow(rest, vec2f(j + 1.0));
+    let mean = (power.x - power.y) / ((j + 1.0) * d);
+    let moment = (power.x * rest.x - power.y * rest.y) / ((j + 2.0) * d);
+    let rise = 6.0 * (moment - mean * 0.5 * (rest.x + rest.y)) / d;
+    return vec2f(mean + rise, mean - rise);
+}
+
+fn fading_cuts(wave: u32, start: f32, end: f32) -> f32 {
+    let j = waves[wave].attenuation;
+    if (j == 0.0 || j == 1.0) {
+        return 1.0;
+    }
+    let reach = waves[wave].origin.w;
+    let low = max(reach - end, 0.03 * reach);
+    return 2.0 * max(j, 1.0) * log(max((reach - start) / low, 1.0));
 }
 
 fn next_node(node: u32) -> u32 {
@@ -289,7 +302,7 @@ fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
     let span = range.y - range.x;
     let length_x = span * abs(ray.direction.x);
     let growth = core_growth(wave, ray, range);
-    let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, span), 3.0 * growth));
+    let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 3.0 * growth));
     let cuts = ceil(clamp(wanted, 1.0, MAX_CUTS));
     var energy = 0.0;
     var t0 = range.x;
@@ -316,7 +329,7 @@ fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
             let t = mix(vec2f(t0), vec2f(t1), part);
             let xs = mix(vec2f(xi.x), vec2f(xi.y), part) * 0.5 + 0.5;
             let alpha = mix(vec2f(nx.z), vec2f(nx.w), xs);
-            let weights = alpha * vec2f(attenuation(wave, ray.middle + t.x), attenuation(wave, ray.middle + t.y));
+            let weights = alpha * fading(wave, ray.middle + t.x, ray.middle + t.y);
             energy += piece_energy(mix(a, b, part.x), mix(a, b, part.y), weights, t.y - t.x, core2, rim);
         }
         t0 = t1;
