@@ -57,6 +57,9 @@ pub enum Workload {
     Styled,
     /// The same geometry in one pass: texture and Lambert, no lines. The baseline.
     Plain,
+    /// The passes of the energy waves alone, over the depths that the frame before has left: only
+    /// [`FrameTimes::wall_ms`] and the waves' own passes mean something.
+    Waves,
 }
 
 /// GPU time of one pass.
@@ -221,12 +224,7 @@ impl Renderer {
         let device = &self.device;
         let projected = Projected::new(&view.camera, view.size, prepared.bounds);
         self.write_frame(prepared, view, &projected, tile, output);
-        let targets = self.targets_for(TargetSize {
-            pixels: tile.size,
-            paint_scale: view.supersample,
-            gbuffer_scale: gbuffer_scale(prepared, view),
-            glow_layers: prepared.waves.layers.len() as u32,
-        });
+        let targets = self.targets_of(prepared, view, tile);
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
         self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
@@ -243,12 +241,34 @@ impl Renderer {
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
         self.paint.run(device, encoder, prepared, &targets, &aim, timer);
-        if let Some(waves) = &targets.waves {
-            let pass = self.waves.get_or_init(|| WavePass::new(device));
-            self.write_wave_view(prepared, view, tile, waves.grid);
-            pass.run(device, encoder, prepared, (&targets, waves), timer);
-        }
+        self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
         targets
+    }
+
+    fn targets_of(&self, prepared: &Prepared, view: &View, tile: Tile) -> Arc<Targets> {
+        self.targets_for(TargetSize {
+            pixels: tile.size,
+            paint_scale: view.supersample,
+            gbuffer_scale: gbuffer_scale(prepared, view),
+            glow_layers: prepared.waves.layers.len() as u32,
+        })
+    }
+
+    /// The energy waves, if there are any.
+    fn draw_waves(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        view: &View,
+        tile: Tile,
+        (projected, targets): (&Projected, &Targets),
+        timer: &mut Timer,
+    ) {
+        let Some(waves) = &targets.waves else { return };
+        let pass = self.waves.get_or_init(|| WavePass::new(&self.device));
+        self.write_wave_view(prepared, view, tile, waves.grid);
+        let kind = prepared.waves.exact_kind(view, projected);
+        pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 
     /// Writes the frame's uniform and the lights as this camera sees them.
@@ -349,13 +369,20 @@ impl Renderer {
         let tile = Tile { origin: [0, 0], size: view.size };
         let mut encoder = self.encoder("timed frame");
         scope::checked(device, || {
-            self.deform.run(&mut encoder, prepared, timer);
+            if workload != Workload::Waves {
+                self.deform.run(&mut encoder, prepared, timer);
+            }
             match workload {
                 Workload::Styled => {
                     let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, timer);
                     let shown = super::picture::color_target(device, view.size);
                     let format = shown.texture.format();
                     self.composite(&mut encoder, prepared, &targets, (&shown.view, format), timer);
+                }
+                Workload::Waves => {
+                    let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+                    let targets = self.targets_of(prepared, view, tile);
+                    self.draw_waves(&mut encoder, prepared, view, tile, (&projected, &targets), timer);
                 }
                 Workload::Plain => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);

@@ -67,6 +67,9 @@ pub(crate) struct WaveTargets {
     pub(crate) energy: Target,
     /// The nodes of each square of pixels.
     pub(crate) lists: wgpu::Buffer,
+    /// The squares with a list, and those whose lists do not fit: see `waves_tiles`.
+    pub(crate) used_squares: wgpu::Buffer,
+    pub(crate) full_squares: wgpu::Buffer,
     pub(crate) grid: ListGrid,
 }
 
@@ -107,7 +110,17 @@ impl WaveTargets {
     fn new(device: &wgpu::Device, pixels: [u32; 2]) -> Self {
         use wgpu::TextureUsages as Usage;
         let grid = ListGrid::new(pixels);
-        let usage = Usage::STORAGE_BINDING | Usage::COPY_SRC;
+        let usage = Usage::STORAGE_BINDING | Usage::COPY_SRC | Usage::RENDER_ATTACHMENT;
+        let squares = |label| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: 16 + 4 * u64::from(grid.count()),
+                usage: wgpu::BufferUsages::STORAGE
+                    | wgpu::BufferUsages::INDIRECT
+                    | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
         Self {
             energy: target(device, "energy", pixels, 1, ENERGY_FORMAT, usage),
             lists: device.create_buffer(&wgpu::BufferDescriptor {
@@ -116,6 +129,8 @@ impl WaveTargets {
                 usage: wgpu::BufferUsages::STORAGE,
                 mapped_at_creation: false,
             }),
+            used_squares: squares("used wave lists"),
+            full_squares: squares("full wave lists"),
             grid,
         }
     }
@@ -133,7 +148,7 @@ fn glow_target(device: &wgpu::Device, size: TargetSize) -> Target {
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: GLOW_FORMAT,
-        usage: Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING,
+        usage: Usage::STORAGE_BINDING | Usage::TEXTURE_BINDING | Usage::RENDER_ATTACHMENT,
         view_formats: &[],
     });
     let view = texture.create_view(&wgpu::TextureViewDescriptor {

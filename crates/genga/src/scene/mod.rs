@@ -31,7 +31,7 @@ pub use node::{Node, Skin, Transform};
 pub use pose::Pose;
 pub use validate::SceneError;
 pub use wave::{
-    Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder, WavePlacement, WaveShape, WaveTone,
+    MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder, WavePlacement, WaveShape, WaveTone,
 };
 
 /// A whole model or set: everything that can be drawn, posed and lit.
@@ -59,7 +59,7 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// Lights, referred to by [`Node::light`].
     pub lights: Vec<Light>,
-    /// Energy waves; they may change from frame to frame.
+    /// Energy waves, at most [`MAX_WAVES`]; they may change from frame to frame.
     pub waves: Vec<Wave>,
     /// How they are integrated.
     pub wave_method: WaveMethod,

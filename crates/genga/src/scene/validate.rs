@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Interpolation, Scene, WaveMethod};
+use super::{Interpolation, MAX_WAVES, Scene, WaveMethod};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -97,6 +97,14 @@ pub enum SceneError {
         /// The rest of the sentence.
         reason: String,
     },
+    /// More waves than can be drawn.
+    #[error("there are {count} waves: at most {most} can be drawn, so join or remove some")]
+    TooManyWaves {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The numbers of the waves' reference method.
     #[error(
         "the waves' reference method has {points} points and the thinning {thinning}: they must be 2 to 4000 and 1 to 64"
@@ -130,6 +138,10 @@ impl Scene {
     /// # Errors
     /// The first thing that is wrong.
     pub fn validate_waves(&self) -> Result<(), SceneError> {
+        let (count, most) = (self.waves.len(), MAX_WAVES);
+        if count > most {
+            return Err(SceneError::TooManyWaves { count, most });
+        }
         for (index, wave) in self.waves.iter().enumerate() {
             wave.check(self.nodes.len()).map_err(|reason| {
                 SceneError::Wave { index, name: wave.name.clone(), reason }

@@ -1,5 +1,8 @@
 use glam::{Vec3, Vec4};
 
+/// Most waves of a scene.
+pub const MAX_WAVES: usize = 240;
+
 /// A glow along a curve: an energy wave (Abe 2024).
 ///
 /// A point at distance r from the place of the curve that it is paired with has the density

@@ -50,6 +50,11 @@ const METHOD_IMAGE: u32 = 5u;
 
 const METHOD_REFERENCE: u32 = 2u;
 
+struct Added {
+    own: vec3f,
+    other: vec3f
+}
+
 struct Detect {
     depth: f32,
     crease_cos: f32,
@@ -103,7 +108,8 @@ fn display_from_linear(c: vec3f) -> vec3f {
 }
 
 fn dither(pixel: vec2f) -> vec3f {
-    let x = fract(52.9829189 * fract(0.06711056 * (pixel.x + vec3f(0.0, 5.588, 11.176)) + 0.00583715 * pixel.y));
+    let shifted = pixel.x + vec3f(0.0, 5.588, 11.176);
+    let x = fract(52.9829189 * fract(0.06711056 * shifted + 0.00583715 * pixel.y));
     return (x - 0.5) / 255.0;
 }
 
@@ -127,13 +133,19 @@ fn encoded(color: vec4f) -> vec4f {
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
 }
 
-fn glows(pixel: vec2i) -> bool {
-    for (var i = 0u; i < glow.layer_count; i++) {
-        if (any(textureLoad(glow_layers, pixel, i, 0).rgb > vec3f(0.0))) {
-            return true;
-        }
+fn glow_of(order: u32, pixel: vec2i, is_linear: bool) -> Added {
+    var added = Added(vec3f(0.0), vec3f(0.0));
+    if (!has_glow) {
+        return added;
     }
-    return false;
+    for (var i = 0u; i < glow.layer_count; i++) {
+        let layer = textureLoad(glow_layers, pixel, i, 0).rgb;
+        let is_wanted = glow.layers[i].x == order;
+        let is_own = (glow.layers[i].y != 0u) == is_linear;
+        added.own += select(vec3f(0.0), layer, is_wanted && is_own);
+        added.other += select(vec3f(0.0), layer, is_wanted && !is_own);
+    }
+    return added;
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -191,32 +203,22 @@ fn paint_at(pixel: vec2i) -> vec4f {
     return sum / f32(scale * scale);
 }
 
-fn with_glow(order: u32, pixel: vec2i, is_linear: bool, color: vec4f) -> vec4f {
-    var result = color;
-    if (glow.layer_count == 0u) {
-        return result;
+fn with_glow(added: Added, is_linear: bool, color: vec4f) -> vec4f {
+    if (!has_glow) {
+        return color;
     }
-    for (var i = 0u; i < glow.layer_count; i++) {
-        if (glow.layers[i].x != order) {
-            continue;
-        }
-        let added = textureLoad(glow_layers, pixel, i, 0);
-        if (all(added.rgb <= vec3f(0.0))) {
-            continue;
-        }
-        let adds_linear = glow.layers[i].y != 0u;
-        if (adds_linear == is_linear) {
-            result = vec4f(result.rgb + added.rgb, result.a);
-        }
-        else if (adds_linear) {
-            result = vec4f(display_from_linear(linear_from_display(result.rgb) + added.rgb), result.a);
+    var rgb = color.rgb + added.own;
+    if (glow_mixes && any(added.other > vec3f(0.0))) {
+        if (is_linear) {
+            rgb = linear_from_display(display_from_linear(rgb) + added.other);
         }
         else {
-            result = vec4f(linear_from_display(display_from_linear(result.rgb) + added.rgb), result.a);
+            rgb = display_from_linear(linear_from_display(rgb) + added.other);
         }
-        result.a = max(result.a, max(result.r, max(result.g, result.b)));
     }
-    return vec4f(result.rgb, min(result.a, 1.0));
+    let alpha = max(color.a, max(rgb.r, max(rgb.g, rgb.b)));
+    let glows = any(added.own + added.other > vec3f(0.0));
+    return vec4f(rgb, select(color.a, min(alpha, 1.0), glows));
 }
 
 @fragment
@@ -229,11 +231,14 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         color = vec4f(background.rgb * background.a, background.a);
     }
     let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
-    color = with_glow(GLOW_UNDER, pixel, is_linear, color);
+    let under = glow_of(GLOW_UNDER, pixel, is_linear);
+    let through = glow_of(GLOW_LINES_THROUGH, pixel, is_linear);
+    let above = glow_of(GLOW_OVER, pixel, is_linear);
+    color = with_glow(under, is_linear, color);
     if ((frame.flags & FRAME_SHOW_PAINT) != 0u) {
         color = over(paint_at(pixel), color);
     }
-    color = with_glow(GLOW_LINES_THROUGH, pixel, is_linear, color);
+    color = with_glow(through, is_linear, color);
     if ((frame.flags & FRAME_SHOW_LINES) != 0u) {
         var ink = vec4f(0.0);
         if (frame.line_method == METHOD_CONTOUR || frame.line_method == METHOD_REFERENCE) {
@@ -250,10 +255,12 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
             ink = ink.yzwx;
         }
     }
-    color = with_glow(GLOW_OVER, pixel, is_linear, color);
+    color = with_glow(above, is_linear, color);
     let result = encoded(color);
-    if (glow.dithered != 0u && glows(pixel)) {
-        return vec4f(result.rgb + dither(position.xy + frame.tile_origin), result.a);
+    if (has_glow && glow.dithered != 0u) {
+        let sum = under.own + under.other + through.own + through.other + above.own + above.other;
+        let noise = dither(position.xy + frame.tile_origin);
+        return vec4f(result.rgb + select(vec3f(0.0), noise, any(sum > vec3f(0.0))), result.a);
     }
     return result;
 }
@@ -263,3 +270,7 @@ fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec
     let corner = vec2f(f32(index & 1u), f32(index >> 1u));
     return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
 }
+
+override glow_mixes: bool = true;
+
+override has_glow: bool = true;

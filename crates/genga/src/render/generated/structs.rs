@@ -340,7 +340,6 @@ pub(crate) const LINE_MATERIAL: u32 = 8u32;
 pub(crate) const LINE_OBJECT: u32 = 4u32;
 pub(crate) const LINE_SILHOUETTE: u32 = 1u32;
 pub(crate) const LINE_USER: u32 = 32u32;
-pub(crate) const LIST_FULL: u32 = 4294967295u32;
 pub(crate) const LOOK_BASE_FIXED: u32 = 4u32;
 pub(crate) const LOOK_BASE_NONE: u32 = 8u32;
 pub(crate) const LOOK_RAMP_IMAGE: u32 = 2u32;

@@ -4,7 +4,7 @@
 var<uniform> view: WaveView;
 
 @group(0) @binding(1)
-var<storage, read> waves: array<Wave>;
+var<uniform> waves: array<Wave, 240>;
 
 @group(0) @binding(2)
 var<storage, read> wave_data: array<f32>;
@@ -24,13 +24,8 @@ var glow: texture_storage_2d_array<rgba16float, write>;
 @group(1) @binding(3)
 var energy_target: texture_storage_2d<r32float, write>;
 
-const ENTRY_END: u32 = 2147483648u;
-
-const ENTRY_KIND: u32 = 3221225472u;
-
-const ENTRY_WAVE: u32 = 1073741824u;
-
-const LIST_FULL: u32 = 4294967295u;
+@group(1) @binding(4)
+var<storage, read> squares: array<u32>;
 
 const MANY_CUTS: f32 = 3.0;
 
@@ -47,6 +42,21 @@ const WAVE_ENDS: u32 = 1u;
 const WAVE_OCCLUDED: u32 = 2u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
+
+struct RayWave {
+    ends: vec2f,
+    radius: f32,
+    core: f32,
+    half_pixel: vec2f,
+    tolerance: f32,
+    reach: f32,
+    fading: f32
+}
+
+struct SquareRay {
+    ray: ViewRay,
+    spread: vec2f
+}
 
 struct ViewRay {
     origin: vec3f,
@@ -143,36 +153,75 @@ struct WaveView {
     reserved_1: u32
 }
 
-fn core_at(wave: u32, distance: f32) -> f32 {
-    let depth = select(distance, 1.0, (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u);
-    return max(waves[wave].core, 0.5 * view.pixel_footprint * max(depth, 0.0));
+fn add_energy(wave: u32, energy: f32) {
+    layer_glow += energy_color(wave, energy);
+    total += energy;
 }
 
-fn core_growth(wave: u32, ray: WaveRay, range: vec2f) -> f32 {
+fn collect_square(square: u32, quarter: u32, local_id: vec2u) {
+    let whole = pixel_of(square, quarter, local_id);
+    let pixel = whole - view.tile_origin;
+    if (any(whole < view.tile_origin) || any(pixel >= view.tile_size)) {
+        return;
+    }
+    let first = square * (view.capacity + 1u);
+    let left = lists[first];
+    let ray = view_ray(vec2f(whole) + 0.5);
+    let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0));
+    layer = 0u;
+    layer_glow = vec4f(0.0);
+    total = 0.0;
+    var at = first + 1u;
+    let last = first + left;
+    while ((at <= last)) {
+        let header = lists[at];
+        let wave = header & 255u;
+        var ends = (header >> 8u) & 15u;
+        let nodes_end = at + (header >> 12u);
+        finish_layers(pixel, waves[wave].layer);
+        let local = wave_ray(wave, ray, far_end(wave, surface), vec2f(0.0));
+        let numbers = ray_wave(wave);
+        var energy = 0.0;
+        while ((at < nodes_end)) {
+            at += 1u;
+            energy += node_energy(lists[at], numbers, local);
+        }
+        while ((ends != 0u)) {
+            let end = firstTrailingBit(ends);
+            ends &= ends - 1u;
+            energy += end_energy(end, end_place(end, wave), numbers, local);
+        }
+        add_energy(wave, energy);
+        at += 1u;
+    }
+    finish_layers(pixel, view.layer_count);
+    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
+}
+
+fn core_at(wave: RayWave, distance: f32) -> f32 {
+    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
+}
+
+fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f) -> f32 {
+    if (!core_grows) {
+        return 0.0;
+    }
     let grown = core_at(wave, ray.middle + range.y);
     return log(grown / core_at(wave, ray.middle + range.x));
 }
 
-fn cuts_of(wave: u32, bend: f32, length: f32, distance: f32) -> f32 {
+fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(sag / (waves[wave].tolerance * distance));
+    return sqrt(sag / (wave.tolerance * distance));
 }
 
-fn end_energy(end: u32, wave: u32, ray: WaveRay) -> f32 {
-    let is_head = (end & 1u) != 0u;
-    var place = waves[wave].tail;
-    if (is_head) {
-        place = waves[wave].head;
-    }
-    if (end >= 2u) {
-        place.w = select(waves[wave].swell.x, waves[wave].swell.y, is_head);
-    }
+fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
     let sides = end_range(end, place.xyz);
     var range = slab(ray, sides.x, sides.y);
     if (range.x >= range.y) {
         return 0.0;
     }
-    let radius = waves[wave].radius;
+    let radius = wave.radius;
     let start = ray.origin - place.xyz;
     let nearest = -dot(start, ray.direction);
     let away = start + nearest * ray.direction;
@@ -187,7 +236,7 @@ fn end_energy(end: u32, wave: u32, ray: WaveRay) -> f32 {
     }
     let core = core_at(wave, ray.middle + clamp(nearest, range.x, range.y));
     let core2 = core * core;
-    let rim = select(0.0, inverseSqrt(radius * radius + core2), radius > 0.0);
+    let rim = rim_of(wave, core2);
     let fades = fading_cuts(wave, ray.middle + range.x, ray.middle + range.y);
     let cuts = ceil(clamp(fades, 1.0, MAX_CUTS));
     var energy = 0.0;
@@ -201,6 +250,35 @@ fn end_energy(end: u32, wave: u32, ray: WaveRay) -> f32 {
         t0 = t1;
     }
     return energy;
+}
+
+fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {
+    if (place.w <= 0.0) {
+        return false;
+    }
+    let start = ray.origin - place.xyz;
+    let nearest = clamp(-dot(start, ray.direction), ray.low, ray.high);
+    let wide = spread.x + spread.y * max(ray.middle + nearest, 0.0);
+    if (radius <= 0.0) {
+        return true;
+    }
+    let reach = radius + wide + spread.y * radius;
+    let away = start + nearest * ray.direction;
+    if (dot(away, away) > reach * reach) {
+        return false;
+    }
+    let sides = end_range(end, place.xyz);
+    let half = sqrt(max(reach * reach - dot(away, away), 0.0));
+    let t = vec2f(max(nearest - half, ray.low), min(nearest + half, ray.high));
+    let xs = ray.origin.x + t * ray.direction.x;
+    return max(xs.x, xs.y) + wide >= sides.x && min(xs.x, xs.y) - wide <= sides.y;
+}
+
+fn end_place(end: u32, wave: u32) -> vec4f {
+    let is_head = (end & 1u) != 0u;
+    let place = select(waves[wave].tail, waves[wave].head, is_head);
+    let swell = select(waves[wave].swell.x, waves[wave].swell.y, is_head);
+    return vec4f(place.xyz, select(place.w, swell, end >= 2u));
 }
 
 fn end_range(end: u32, place: vec3f) -> vec2f {
@@ -235,13 +313,13 @@ fn energy_color(wave: u32, energy: f32) -> vec4f {
     return min(low * (positive / low_energy), vec4f(60000.0));
 }
 
-fn fading(wave: u32, start: f32, end: f32) -> vec2f {
-    let j = waves[wave].attenuation;
+fn fading(wave: RayWave, start: f32, end: f32) -> vec2f {
+    let j = wave.fading;
     if (j == 0.0) {
         return vec2f(1.0);
     }
-    let rest = clamp(1.0 - vec2f(start, end) / waves[wave].origin.w, vec2f(0.0), vec2f(1.0));
-    if (j == 1.0) {
+    let rest = clamp(1.0 - vec2f(start, end) / wave.reach, vec2f(0.0), vec2f(1.0));
+    if (!fades || j == 1.0) {
         return rest;
     }
     let d = rest.x - rest.y;
@@ -255,14 +333,26 @@ fn fading(wave: u32, start: f32, end: f32) -> vec2f {
     return vec2f(mean + rise, mean - rise);
 }
 
-fn fading_cuts(wave: u32, start: f32, end: f32) -> f32 {
-    let j = waves[wave].attenuation;
-    if (j == 0.0 || j == 1.0) {
+fn fading_cuts(wave: RayWave, start: f32, end: f32) -> f32 {
+    let j = wave.fading;
+    if (!fades || j == 0.0 || j == 1.0) {
         return 1.0;
     }
-    let reach = waves[wave].origin.w;
+    let reach = wave.reach;
     let low = max(reach - end, 0.03 * reach);
     return 2.0 * max(j, 1.0) * log(max((reach - start) / low, 1.0));
+}
+
+fn far_end(wave: u32, surface: f32) -> f32 {
+    return select(1e30, surface, (waves[wave].flags & WAVE_OCCLUDED) != 0u);
+}
+
+fn finish_layers(pixel: vec2u, next: u32) {
+    while ((layer < next)) {
+        textureStore(glow, pixel, layer, layer_glow);
+        layer_glow = vec4f(0.0);
+        layer += 1u;
+    }
 }
 
 fn next_node(node: u32) -> u32 {
@@ -270,10 +360,10 @@ fn next_node(node: u32) -> u32 {
     return next >> firstTrailingBit(next);
 }
 
-fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
+fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
     let nx = nodes[node].x;
-    let x0 = max(nx.x - nx.y, waves[wave].tail.x);
-    let x1 = min(nx.x + nx.y, waves[wave].head.x);
+    let x0 = max(nx.x - nx.y, wave.ends.x);
+    let x1 = min(nx.x + nx.y, wave.ends.y);
     var range = slab(ray, x0, x1);
     if (x0 >= x1 || range.x >= range.y) {
         return 0.0;
@@ -281,7 +371,7 @@ fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
     let ny = nodes[node].y;
     let nz = nodes[node].z;
     let inverse = 1.0 / nx.y;
-    let radius = waves[wave].radius;
+    let radius = wave.radius;
     let bend = length(vec2f(ny.z, nz.z));
     let slope = vec2f(ny.y, nz.y) * inverse;
     let middle = vec2f(ny.x + ny.z / 3.0, nz.x + nz.z / 3.0);
@@ -308,13 +398,14 @@ fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
     var t0 = range.x;
     for (var i = 1.0; i <= cuts; i += 1.0) {
         var part_of_range = i / cuts;
-        if (growth > 0.2) {
+        if (core_grows && growth > 0.2) {
             part_of_range = (exp(growth * part_of_range) - 1.0) / (exp(growth) - 1.0);
         }
         let t1 = mix(range.x, range.y, part_of_range);
-        let core = select(nearest_core, core_at(wave, ray.middle + 0.5 * (t0 + t1)), growth > 0.2);
+        let grown = core_grows && growth > 0.2;
+        let core = select(nearest_core, core_at(wave, ray.middle + 0.5 * (t0 + t1)), grown);
         let core2 = core * core;
-        let rim = select(0.0, inverseSqrt(radius * radius + core2), radius > 0.0);
+        let rim = rim_of(wave, core2);
         let xi = clamp((ray.origin.x + vec2f(t0, t1) * ray.direction.x - nx.x) * inverse, vec2f(-1.0), vec2f(1.0));
         let sag = (xi.y - xi.x) * (xi.y - xi.x) * (1.0 / 6.0);
         let c0 = vec2f(ny.x + xi.x * (ny.y + xi.x * ny.z) - sag * ny.z, nz.x + xi.x * (nz.y + xi.x * nz.z) - sag * nz.z);
@@ -337,10 +428,10 @@ fn node_energy(node: u32, wave: u32, ray: WaveRay) -> f32 {
     return energy;
 }
 
-fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let nx = nodes[node].x;
-    let x0 = max(nx.x - nx.y, waves[wave].tail.x);
-    let x1 = min(nx.x + nx.y, waves[wave].head.x);
+    let x0 = max(nx.x - nx.y, wave.ends.x);
+    let x1 = min(nx.x + nx.y, wave.ends.y);
     if (x0 >= x1) {
         return NODE_MISSED;
     }
@@ -378,7 +469,7 @@ fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
     let a = 0.667 * more.z + nz.w + steep * base;
     let b = steep * spread.y;
     let e11 = dot(e1, e1);
-    let radius = waves[wave].radius;
+    let radius = wave.radius;
     if (radius > 0.0) {
         let wide = radius + a;
         let q2 = e11 - b * b;
@@ -407,10 +498,10 @@ fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
     let first = min(4.0 * more.x / along, nz.w * span) / d2;
     let second = ny.w * span / (d2 * d);
     let error = first + second + 2.0 * more.y * span / d;
-    let share = span * max(1.0 / d - select(0.0, inverseSqrt(radius * radius + core * core), radius > 0.0), 0.0);
+    let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let fits = error <= waves[wave].tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
+    let fits = error <= wave.tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
     return select(NODE_TOO_COARSE, NODE_FITS, fits);
 }
 
@@ -436,6 +527,12 @@ fn piece_energy(a: vec3f, b: vec3f, weights: vec2f, length: f32, core2: f32, rim
     return length * (2.0 / sum * (g * mean - tilt * h) - mean * rim);
 }
 
+fn pixel_of(square: u32, quarter: u32, local_id: vec2u) -> vec2u {
+    let place = vec2u(square % view.squares_across, square / view.squares_across);
+    let corner = (view.tile_origin / view.square + place) * view.square;
+    return corner + vec2u(quarter & 1u, quarter >> 1u) * 8u + local_id;
+}
+
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
     if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
         return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
@@ -443,11 +540,37 @@ fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
     return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
 }
 
+fn ray_wave(wave: u32) -> RayWave {
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    return RayWave(vec2f(waves[wave].tail.x, waves[wave].head.x), waves[wave].radius, waves[wave].core, 0.5 * view.pixel_footprint * select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), is_orthographic), waves[wave].tolerance, waves[wave].origin.w, waves[wave].attenuation);
+}
+
+fn rim_of(wave: RayWave, core2: f32) -> f32 {
+    return select(0.0, inverseSqrt(wave.radius * wave.radius + core2), wave.radius > 0.0);
+}
+
 fn slab(ray: WaveRay, x0: f32, x1: f32) -> vec2f {
     let slope = select(ray.direction.x, 1e-20, abs(ray.direction.x) < 1e-20);
     let a = (x0 - ray.origin.x) / slope;
     let b = (x1 - ray.origin.x) / slope;
     return vec2f(max(min(a, b), ray.low), min(max(a, b), ray.high));
+}
+
+fn square_ray(square: vec2u) -> SquareRay {
+    let low = vec2f(square * view.square);
+    let side = f32(view.square);
+    let ray = view_ray(low + 0.5 * side);
+    var spread = vec2f(0.0);
+    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
+        spread.x = 0.7072 * side * view.pixel_footprint;
+    }
+    else {
+        for (var i = 0u; i < 4u; i++) {
+            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
+            spread.y = max(spread.y, length(at.direction - ray.direction));
+        }
+    }
+    return SquareRay(ray, spread);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
@@ -458,6 +581,53 @@ fn view_ray(pixel: vec2f) -> ViewRay {
     let direction = view.corner.xyz + moved;
     let slant = length(direction);
     return ViewRay(view.origin.xyz, direction / slant, slant);
+}
+
+fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
+    let whole = pixel_of(square, quarter, local_id);
+    let pixel = whole - view.tile_origin;
+    if (any(whole < view.tile_origin) || any(pixel >= view.tile_size)) {
+        return;
+    }
+    let ray = view_ray(vec2f(whole) + 0.5);
+    let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0));
+    let place = vec2u(square % view.squares_across, square / view.squares_across);
+    let middle = square_ray(view.tile_origin / view.square + place);
+    layer = 0u;
+    layer_glow = vec4f(0.0);
+    total = 0.0;
+    for (var wave = 0u; wave < view.wave_count; wave++) {
+        let of_square = wave_ray(wave, middle.ray, 1e30, middle.spread);
+        if (of_square.low >= of_square.high) {
+            continue;
+        }
+        finish_layers(pixel, waves[wave].layer);
+        let local = wave_ray(wave, ray, far_end(wave, surface), vec2f(0.0));
+        let numbers = ray_wave(wave);
+        let leaves = waves[wave].leaves;
+        let root = waves[wave].node_first;
+        var energy = 0.0;
+        var node = select(0u, 1u, leaves > 0u);
+        while ((node != 0u)) {
+            let fit = node_fits(root + node, numbers, of_square, middle.spread);
+            let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
+            if (is_used) {
+                energy += node_energy(root + node, numbers, local);
+            }
+            node = select(2u * node, next_node(node), is_used || fit == NODE_MISSED);
+            node = select(node, 0u, node == 1u);
+        }
+        let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
+        for (var end = first_end; end < 4u; end++) {
+            let at = end_place(end, wave);
+            if (end_is_near(end, at, numbers.radius, of_square, middle.spread)) {
+                energy += end_energy(end, at, numbers, local);
+            }
+        }
+        add_energy(wave, energy);
+    }
+    finish_layers(pixel, view.layer_count);
+    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
@@ -493,96 +663,25 @@ fn within_radius(start: vec3f, change: vec3f, radius: f32) -> vec2f {
 }
 
 @compute @workgroup_size(8, 8)
-fn collect_energy(@builtin(global_invocation_id) id: vec3u) {
-    let pixel = id.xy;
-    if (any(pixel >= view.tile_size)) {
-        return;
+fn collect_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
+    for (var i = group.x; i < squares[3]; i += 65535u) {
+        collect_square(squares[4u + i], group.y, local_id.xy);
     }
-    let whole = view.tile_origin + pixel;
-    let ray = view_ray(vec2f(whole) + 0.5);
-    let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0));
-    let place = whole / view.square - view.tile_origin / view.square;
-    let first = (place.y * view.squares_across + place.x) * (view.capacity + 1u);
-    let count = lists[first];
-    let walks = count == LIST_FULL;
-    var layer = 0u;
-    var layer_glow = vec4f(0.0);
-    var total = 0.0;
-    var wave = 0u;
-    var energy = 0.0;
-    var local = WaveRay(vec3f(0.0), vec3f(0.0), 0.0, 0.0, 0.0);
-    var is_open = false;
-    var i = 0u;
-    var node = 0u;
-    var next_wave = 0u;
-    loop {
-        var entry = 0u;
-        var is_entry = true;
-        if (!walks) {
-            if (i >= count) {
-                break;
-            }
-            i += 1u;
-            entry = lists[first + i];
-        }
-        else if (i == 0u) {
-            if (next_wave >= view.wave_count) {
-                break;
-            }
-            entry = ENTRY_WAVE | next_wave;
-            next_wave += 1u;
-            node = select(0u, 1u, waves[next_wave - 1u].leaves > 0u);
-            i = 1u;
-        }
-        else if (node != 0u) {
-            let fit = node_fits(waves[wave].node_first + node, wave, local, vec2f(0.0));
-            is_entry = fit == NODE_FITS || (fit != NODE_MISSED && node >= waves[wave].leaves);
-            entry = waves[wave].node_first + node;
-            node = select(2u * node, next_node(node), is_entry || fit == NODE_MISSED);
-            node = select(node, 0u, node == 1u);
-        }
-        else {
-            entry = ENTRY_END | (i - 1u);
-            is_entry = i > 2u || (waves[wave].flags & WAVE_ENDS) != 0u;
-            i = select(i + 1u, 0u, i == 4u);
-        }
-        if (!is_entry) {
-            continue;
-        }
-        let kind = entry & ENTRY_KIND;
-        if (kind == ENTRY_WAVE) {
-            if (is_open) {
-                layer_glow += energy_color(wave, energy);
-                total += energy;
-            }
-            wave = entry & ~ENTRY_KIND;
-            while ((layer < waves[wave].layer)) {
-                textureStore(glow, pixel, layer, layer_glow);
-                layer_glow = vec4f(0.0);
-                layer += 1u;
-            }
-            let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
-            local = wave_ray(wave, ray, select(1e30, surface, is_occluded), vec2f(0.0));
-            energy = 0.0;
-            is_open = true;
-        }
-        else if (local.low < local.high) {
-            if (kind == ENTRY_END) {
-                energy += end_energy(entry & ~ENTRY_KIND, wave, local);
-            }
-            else {
-                energy += node_energy(entry, wave, local);
-            }
-        }
-    }
-    if (is_open) {
-        layer_glow += energy_color(wave, energy);
-        total += energy;
-    }
-    while ((layer < view.layer_count)) {
-        textureStore(glow, pixel, layer, layer_glow);
-        layer_glow = vec4f(0.0);
-        layer += 1u;
-    }
-    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
+
+@compute @workgroup_size(8, 8)
+fn collect_full(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
+    for (var i = group.x; i < squares[3]; i += 65535u) {
+        walk_square(squares[4u + i], group.y, local_id.xy);
+    }
+}
+
+override core_grows: bool = true;
+
+override fades: bool = true;
+
+var<private> layer: u32;
+
+var<private> layer_glow: vec4f;
+
+var<private> total: f32;

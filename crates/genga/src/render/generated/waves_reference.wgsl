@@ -4,7 +4,7 @@
 var<uniform> view: WaveView;
 
 @group(0) @binding(1)
-var<storage, read> waves: array<Wave>;
+var<uniform> waves: array<Wave, 240>;
 
 @group(0) @binding(2)
 var<storage, read> wave_data: array<f32>;
@@ -24,17 +24,37 @@ const CURVE_B_SPLINE: u32 = 4u;
 
 const CURVE_HELIX: u32 = 1u;
 
+const CURVE_LINE: u32 = 0u;
+
 const CURVE_POLYLINE: u32 = 5u;
 
 const CURVE_TRIG: u32 = 2u;
 
 const WAVE_ENDS: u32 = 1u;
 
-const WAVE_EVEN: u32 = 4u;
-
 const WAVE_OCCLUDED: u32 = 2u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
+
+struct Constants {
+    tail: vec4f,
+    head: vec4f,
+    swell: vec2f,
+    x_start: f32,
+    x_scale: f32,
+    has_ends: bool,
+    alpha: f32
+}
+
+struct RayWave {
+    ends: vec2f,
+    radius: f32,
+    core: f32,
+    half_pixel: vec2f,
+    tolerance: f32,
+    reach: f32,
+    fading: f32
+}
 
 struct ViewRay {
     origin: vec3f,
@@ -153,9 +173,8 @@ fn bezier(first: u32, degree: u32, s: f32) -> vec3f {
     return sum + power * s * point_at(first, degree);
 }
 
-fn core_at(wave: u32, distance: f32) -> f32 {
-    let depth = select(distance, 1.0, (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u);
-    return max(waves[wave].core, 0.5 * view.pixel_footprint * max(depth, 0.0));
+fn core_at(wave: RayWave, distance: f32) -> f32 {
+    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
 }
 
 fn curve_at(wave: u32, s: f32) -> vec3f {
@@ -167,38 +186,26 @@ fn curve_at(wave: u32, s: f32) -> vec3f {
     return p;
 }
 
-fn density(wave: u32, ray: WaveRay, t: f32, x_range: vec2f) -> f32 {
+fn density(wave: u32, model: RayWave, c: Constants, ray: WaveRay, t: f32) -> f32 {
     let p = ray.origin + t * ray.direction;
-    let core = core_at(wave, ray.middle + t);
+    let core = core_at(model, ray.middle + t);
     let core2 = core * core;
-    let tail = waves[wave].tail;
-    let head = waves[wave].head;
-    var sum = 0.0;
-    if (p.x > tail.x && p.x < head.x) {
-        var s = (p.x - x_range.x) / max(x_range.y - x_range.x, 1e-20);
-        if ((waves[wave].flags & WAVE_EVEN) == 0u) {
-            s = solved_s(wave, p.x);
-        }
-        let off = p - curve_at(wave, s);
-        sum = alpha_at(wave, s) * law(wave, dot(off, off), core2);
+    var s = (clamp(p.x, c.tail.x, c.head.x) - c.x_start) * c.x_scale;
+    if (!is_even) {
+        s = solved_s(wave, clamp(p.x, c.tail.x, c.head.x));
     }
-    else if ((waves[wave].flags & WAVE_ENDS) != 0u) {
-        let end = select(head, tail, p.x <= tail.x);
-        let off = p - end.xyz;
-        sum = end.w * law(wave, dot(off, off), core2);
+    let off = p - place_at(wave, s);
+    let is_inside = p.x > c.tail.x && p.x < c.head.x;
+    var sum = select(0.0, law(model, dot(off, off), core2), is_inside || c.has_ends);
+    if (!has_more) {
+        return c.alpha * sum;
     }
-    let swell = waves[wave].swell;
-    if (swell.x + swell.y > 0.0) {
-        let from_tail = p - tail.xyz;
-        let from_head = p - head.xyz;
-        sum += swell.x * law(wave, dot(from_tail, from_tail), core2);
-        sum += swell.y * law(wave, dot(from_head, from_head), core2);
-    }
-    let j = waves[wave].attenuation;
-    if (j > 0.0) {
-        sum *= pow(max(1.0 - (ray.middle + t) / waves[wave].origin.w, 0.0), j);
-    }
-    return sum;
+    sum *= alpha_at(wave, s);
+    let from_tail = p - c.tail.xyz;
+    let from_head = p - c.head.xyz;
+    sum += c.swell.x * law(model, dot(from_tail, from_tail), core2);
+    sum += c.swell.y * law(model, dot(from_head, from_head), core2);
+    return sum * pow(max(1.0 - (ray.middle + t) / model.reach, 0.0), model.fading);
 }
 
 fn energy_color(wave: u32, energy: f32) -> vec4f {
@@ -271,12 +278,32 @@ fn lattice(n: u32) -> f32 {
     return f32(hash(n) >> 8u) * (2.0 / 16777215.0) - 1.0;
 }
 
-fn law(wave: u32, r2: f32, core2: f32) -> f32 {
-    let radius = waves[wave].radius;
-    if (radius <= 0.0) {
-        return inverseSqrt(r2 + core2);
+fn law(wave: RayWave, r2: f32, core2: f32) -> f32 {
+    return max(inverseSqrt(r2 + core2) - rim_of(wave, core2), 0.0);
+}
+
+fn load_curve(wave: u32) {
+    let curve = vec4u(waves[wave].curve.first, waves[wave].curve.knots_first, waves[wave].curve.count, 0u);
+    numbers = vec4f(waves[wave].curve.length * waves[wave].axis_x.w, waves[wave].curve.radius, waves[wave].curve.angle, waves[wave].curve.phase);
+    if (curve_kind == CURVE_BEZIER || curve_kind == CURVE_B_SPLINE) {
+        for (var i = 0u; i < point_count; i++) {
+            points[i] = point_at(curve.x, i) * vec3f(waves[wave].axis_x.w, 1.0, 1.0);
+        }
     }
-    return max(inverseSqrt(r2 + core2) - inverseSqrt(radius * radius + core2), 0.0);
+    if (curve_kind == CURVE_B_SPLINE) {
+        for (var i = 0u; i < point_count + order; i++) {
+            knots[i] = wave_data[curve.y + i];
+        }
+    }
+    if (curve_kind == CURVE_TRIG) {
+        for (var i = 0u; i < point_count; i++) {
+            points[i] = vec3f(wave_data[curve.x + 2u * i], wave_data[curve.x + 2u * i + 1u], 0.0);
+        }
+        for (var i = 0u; i < second_count; i++) {
+            let at = curve.x + 2u * (curve.z + i);
+            points[8u + i] = vec3f(wave_data[at], wave_data[at + 1u], 0.0);
+        }
+    }
 }
 
 fn low_spline(first: u32, knots: u32, order: u32, span: u32, s: f32) -> vec3f {
@@ -320,6 +347,53 @@ fn noise_at(wave: u32, s: f32) -> vec2f {
     return waves[wave].curve.noise_amplitude * fade * sum;
 }
 
+fn part_between(s: f32, start: f32, end: f32) -> f32 {
+    return select(0.0, (s - start) / (end - start), end > start);
+}
+
+fn place_at(wave: u32, s: f32) -> vec3f {
+    if (curve_kind == CURVE_LINE) {
+        return vec3f(numbers.x * s + numbers.w, 0.0, 0.0);
+    }
+    if (curve_kind == CURVE_HELIX) {
+        let angle = numbers.w + numbers.z * s;
+        return vec3f(numbers.x * s, numbers.y * sin(angle), numbers.y * cos(angle));
+    }
+    if (curve_kind == CURVE_TRIG) {
+        let angle = numbers.z * s;
+        let turn = vec2f(cos(angle), sin(angle));
+        var at = turn;
+        var sums = vec2f(0.0);
+        for (var n = 0u; n < max(point_count, second_count); n++) {
+            if (n < point_count) {
+                sums.x += points[n].x * at.y + points[n].y * at.x;
+            }
+            if (n < second_count) {
+                sums.y += points[8u + n].x * at.y + points[8u + n].y * at.x;
+            }
+            at = vec2f(at.x * turn.x - at.y * turn.y, at.x * turn.y + at.y * turn.x);
+        }
+        return vec3f(numbers.x * s, sums);
+    }
+    if (curve_kind == CURVE_BEZIER) {
+        let rest = 1.0 - s;
+        let degree = max(point_count, 1u) - 1u;
+        var power = 1.0;
+        var binomial = 1.0;
+        var sum = points[0] * rest;
+        for (var i = 1u; i < degree; i++) {
+            power *= s;
+            binomial *= f32(degree - i + 1u) / f32(i);
+            sum = (sum + power * binomial * points[i]) * rest;
+        }
+        return sum + power * s * points[degree];
+    }
+    if (curve_kind == CURVE_B_SPLINE) {
+        return spline_at(s);
+    }
+    return curve_at(wave, s);
+}
+
 fn point_at(first: u32, index: u32) -> vec3f {
     let at = first + 3u * index;
     return vec3f(wave_data[at], wave_data[at + 1u], wave_data[at + 2u]);
@@ -332,42 +406,60 @@ fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
     return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
 }
 
+fn ray_wave(wave: u32) -> RayWave {
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    return RayWave(vec2f(waves[wave].tail.x, waves[wave].head.x), waves[wave].radius, waves[wave].core, 0.5 * view.pixel_footprint * select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), is_orthographic), waves[wave].tolerance, waves[wave].origin.w, waves[wave].attenuation);
+}
+
 fn reference_energy(wave: u32, ray: WaveRay) -> f32 {
     if (ray.low >= ray.high) {
         return 0.0;
     }
-    let x_range = vec2f(curve_at(wave, 0.0).x, curve_at(wave, 1.0).x);
+    let model = ray_wave(wave);
+    load_curve(wave);
+    let x_start = place_at(wave, 0.0).x;
+    let x_end = place_at(wave, 1.0).x;
+    let c = Constants(waves[wave].tail, waves[wave].head, waves[wave].swell, x_start, 1.0 / max(x_end - x_start, 1e-20), (waves[wave].flags & WAVE_ENDS) != 0u, waves[wave].alpha);
     let step = (ray.high - ray.low) / f32(view.reference_points);
-    if (view.reference_thinning <= 1u) {
-        return simpson(wave, ray, vec2f(ray.low, ray.high), step, x_range);
+    let whole = vec2f(ray.low, ray.high);
+    if (!thins) {
+        return simpson(wave, model, c, ray, whole, step);
     }
     let off = ray.origin.yz - waves[wave].bound.yz;
     let along = ray.direction.yz;
     let a = max(dot(along, along), 1e-12);
     let b = dot(off, along);
     let d = b * b - a * (dot(off, off) - waves[wave].cylinder * waves[wave].cylinder);
-    let wide = step * f32(view.reference_thinning);
-    if (d <= 0.0) {
-        return simpson(wave, ray, vec2f(ray.low, ray.high), wide, x_range);
+    let root = sqrt(max(d, 0.0));
+    let u = select(vec2f(ray.high), clamp((vec2f(-root, root) - b) / a, vec2f(ray.low), vec2f(ray.high)), d > 0.0);
+    let wide = step * f32(max(view.reference_thinning, 1u));
+    var sum = 0.0;
+    for (var i = 0; i < 3; i++) {
+        let range = select(select(vec2f(u.y, ray.high), u, i == 1), vec2f(ray.low, u.x), i == 0);
+        sum += simpson(wave, model, c, ray, range, select(wide, step, i == 1));
     }
-    let root = sqrt(d);
-    let u = clamp((vec2f(-root, root) - b) / a, vec2f(ray.low), vec2f(ray.high));
-    return simpson(wave, ray, vec2f(ray.low, u.x), wide, x_range) + simpson(wave, ray, u, step, x_range) + simpson(wave, ray, vec2f(u.y, ray.high), wide, x_range);
+    return sum;
 }
 
-fn simpson(wave: u32, ray: WaveRay, range: vec2f, step: f32, x_range: vec2f) -> f32 {
+fn rim_of(wave: RayWave, core2: f32) -> f32 {
+    return select(0.0, inverseSqrt(wave.radius * wave.radius + core2), wave.radius > 0.0);
+}
+
+fn simpson(wave: u32, model: RayWave, c: Constants, ray: WaveRay, range: vec2f, step: f32) -> f32 {
     if (range.x >= range.y) {
         return 0.0;
     }
-    let intervals = 2u * u32(clamp(ceil(0.5 * (range.y - range.x) / step), 1.0, 5000.0));
-    let h = (range.y - range.x) / f32(intervals);
-    var sum = 0.0;
-    for (var i = 0u; i <= intervals; i++) {
-        let is_end = i == 0u || i == intervals;
-        let weight = select(select(2.0, 4.0, (i & 1u) == 1u), 1.0, is_end);
-        sum += weight * density(wave, ray, range.x + h * f32(i), x_range);
+    let pairs = clamp(ceil(0.5 * (range.y - range.x) / step), 1.0, 2500.0);
+    let h = 0.5 * (range.y - range.x) / pairs;
+    var odd = 0.0;
+    var even = 0.0;
+    for (var i = 0.0; i < pairs; i += 1.0) {
+        odd += density(wave, model, c, ray, range.x + h * (2.0 * i + 1.0));
+        even += density(wave, model, c, ray, range.x + h * (2.0 * i + 2.0));
     }
-    return sum * h / 3.0;
+    let first = density(wave, model, c, ray, range.x);
+    let last = density(wave, model, c, ray, range.y);
+    return (first + 4.0 * odd + 2.0 * even - last) * h / 3.0;
 }
 
 fn smooth_curve_at(wave: u32, s: f32) -> vec3f {
@@ -407,7 +499,7 @@ fn solved_s(wave: u32, x: f32) -> f32 {
     var high = 1.0;
     for (var i = 0; i < 22; i++) {
         let middle = 0.5 * (low + high);
-        if (curve_at(wave, middle).x < x) {
+        if (place_at(wave, middle).x < x) {
             low = middle;
         }
         else {
@@ -415,6 +507,44 @@ fn solved_s(wave: u32, x: f32) -> f32 {
         }
     }
     return 0.5 * (low + high);
+}
+
+fn spline_at(s: f32) -> vec3f {
+    var a = points[0];
+    var b = points[0];
+    var c = points[0];
+    var d = points[0];
+    var low = vec3f(0.0);
+    var high = vec3f(0.0);
+    for (var i = max(order, 1u) - 1u; i < point_count; i++) {
+        if (i < order || knots[i] <= s) {
+            a = points[max(i, 3u) - 3u];
+            b = points[max(i, 2u) - 2u];
+            c = points[max(i, 1u) - 1u];
+            d = points[i];
+            low = vec3f(knots[max(i, 2u) - 2u], knots[max(i, 1u) - 1u], knots[i]);
+            high = vec3f(knots[i + 1u], knots[i + 2u], knots[i + 3u]);
+        }
+    }
+    if (order >= 4u) {
+        a = mix(a, b, part_between(s, low.x, high.x));
+        b = mix(b, c, part_between(s, low.y, high.y));
+        c = mix(c, d, part_between(s, low.z, high.z));
+    }
+    else {
+        a = b;
+        b = c;
+        c = d;
+    }
+    if (order >= 3u) {
+        a = mix(a, b, part_between(s, low.y, high.x));
+        b = mix(b, c, part_between(s, low.z, high.y));
+    }
+    else {
+        a = b;
+        b = c;
+    }
+    return mix(a, b, part_between(s, low.z, high.x));
 }
 
 fn trig_sum(first: u32, count: u32, angle: f32) -> f32 {
@@ -488,3 +618,23 @@ fn collect_reference(@builtin(global_invocation_id) id: vec3u) {
     }
     textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
+
+override curve_kind: u32 = 255u;
+
+override has_more: bool = true;
+
+override is_even: bool = false;
+
+override order: u32 = 0u;
+
+override point_count: u32 = 0u;
+
+override second_count: u32 = 0u;
+
+override thins: bool = true;
+
+var<private> knots: array<f32, 20>;
+
+var<private> numbers: vec4f;
+
+var<private> points: array<vec3f, 16>;

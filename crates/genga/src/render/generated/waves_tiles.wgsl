@@ -4,7 +4,7 @@
 var<uniform> view: WaveView;
 
 @group(0) @binding(1)
-var<storage, read> waves: array<Wave>;
+var<uniform> waves: array<Wave, 240>;
 
 @group(0) @binding(3)
 var<storage, read> nodes: array<WaveNode>;
@@ -12,13 +12,11 @@ var<storage, read> nodes: array<WaveNode>;
 @group(1) @binding(0)
 var<storage, read_write> lists: array<u32>;
 
-const ENTRY_END: u32 = 2147483648u;
+@group(1) @binding(1)
+var<storage, read_write> used_squares: Squares;
 
-const ENTRY_NODE: u32 = 0u;
-
-const ENTRY_WAVE: u32 = 1073741824u;
-
-const LIST_FULL: u32 = 4294967295u;
+@group(1) @binding(2)
+var<storage, read_write> full_squares: Squares;
 
 const MANY_CUTS: f32 = 3.0;
 
@@ -31,6 +29,29 @@ const NODE_TOO_COARSE: u32 = 2u;
 const WAVE_ENDS: u32 = 1u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
+
+struct RayWave {
+    ends: vec2f,
+    radius: f32,
+    core: f32,
+    half_pixel: vec2f,
+    tolerance: f32,
+    reach: f32,
+    fading: f32
+}
+
+struct SquareRay {
+    ray: ViewRay,
+    spread: vec2f
+}
+
+struct Squares {
+    groups: atomic<u32>,
+    rows: u32,
+    layers: u32,
+    count: atomic<u32>,
+    squares: array<u32>
+}
 
 struct ViewRay {
     origin: vec3f,
@@ -127,32 +148,22 @@ struct WaveView {
     reserved_1: u32
 }
 
-fn core_at(wave: u32, distance: f32) -> f32 {
-    let depth = select(distance, 1.0, (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u);
-    return max(waves[wave].core, 0.5 * view.pixel_footprint * max(depth, 0.0));
+fn core_at(wave: RayWave, distance: f32) -> f32 {
+    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
 }
 
-fn cuts_of(wave: u32, bend: f32, length: f32, distance: f32) -> f32 {
+fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(sag / (waves[wave].tolerance * distance));
+    return sqrt(sag / (wave.tolerance * distance));
 }
 
-fn end_is_near(end: u32, wave: u32, ray: WaveRay, spread: vec2f) -> bool {
-    let is_head = (end & 1u) != 0u;
-    var place = waves[wave].tail;
-    if (is_head) {
-        place = waves[wave].head;
-    }
-    if (end >= 2u) {
-        place.w = select(waves[wave].swell.x, waves[wave].swell.y, is_head);
-    }
+fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {
     if (place.w <= 0.0) {
         return false;
     }
     let start = ray.origin - place.xyz;
     let nearest = clamp(-dot(start, ray.direction), ray.low, ray.high);
     let wide = spread.x + spread.y * max(ray.middle + nearest, 0.0);
-    let radius = waves[wave].radius;
     if (radius <= 0.0) {
         return true;
     }
@@ -166,6 +177,13 @@ fn end_is_near(end: u32, wave: u32, ray: WaveRay, spread: vec2f) -> bool {
     let t = vec2f(max(nearest - half, ray.low), min(nearest + half, ray.high));
     let xs = ray.origin.x + t * ray.direction.x;
     return max(xs.x, xs.y) + wide >= sides.x && min(xs.x, xs.y) - wide <= sides.y;
+}
+
+fn end_place(end: u32, wave: u32) -> vec4f {
+    let is_head = (end & 1u) != 0u;
+    let place = select(waves[wave].tail, waves[wave].head, is_head);
+    let swell = select(waves[wave].swell.x, waves[wave].swell.y, is_head);
+    return vec4f(place.xyz, select(place.w, swell, end >= 2u));
 }
 
 fn end_range(end: u32, place: vec3f) -> vec2f {
@@ -183,10 +201,10 @@ fn next_node(node: u32) -> u32 {
     return next >> firstTrailingBit(next);
 }
 
-fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let nx = nodes[node].x;
-    let x0 = max(nx.x - nx.y, waves[wave].tail.x);
-    let x1 = min(nx.x + nx.y, waves[wave].head.x);
+    let x0 = max(nx.x - nx.y, wave.ends.x);
+    let x1 = min(nx.x + nx.y, wave.ends.y);
     if (x0 >= x1) {
         return NODE_MISSED;
     }
@@ -224,7 +242,7 @@ fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
     let a = 0.667 * more.z + nz.w + steep * base;
     let b = steep * spread.y;
     let e11 = dot(e1, e1);
-    let radius = waves[wave].radius;
+    let radius = wave.radius;
     if (radius > 0.0) {
         let wide = radius + a;
         let q2 = e11 - b * b;
@@ -253,11 +271,37 @@ fn node_fits(node: u32, wave: u32, ray: WaveRay, spread: vec2f) -> u32 {
     let first = min(4.0 * more.x / along, nz.w * span) / d2;
     let second = ny.w * span / (d2 * d);
     let error = first + second + 2.0 * more.y * span / d;
-    let share = span * max(1.0 / d - select(0.0, inverseSqrt(radius * radius + core * core), radius > 0.0), 0.0);
+    let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let fits = error <= waves[wave].tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
+    let fits = error <= wave.tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
     return select(NODE_TOO_COARSE, NODE_FITS, fits);
+}
+
+fn ray_wave(wave: u32) -> RayWave {
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    return RayWave(vec2f(waves[wave].tail.x, waves[wave].head.x), waves[wave].radius, waves[wave].core, 0.5 * view.pixel_footprint * select(vec2f(0.0, 1.0), vec2f(1.0, 0.0), is_orthographic), waves[wave].tolerance, waves[wave].origin.w, waves[wave].attenuation);
+}
+
+fn rim_of(wave: RayWave, core2: f32) -> f32 {
+    return select(0.0, inverseSqrt(wave.radius * wave.radius + core2), wave.radius > 0.0);
+}
+
+fn square_ray(square: vec2u) -> SquareRay {
+    let low = vec2f(square * view.square);
+    let side = f32(view.square);
+    let ray = view_ray(low + 0.5 * side);
+    var spread = vec2f(0.0);
+    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
+        spread.x = 0.7072 * side * view.pixel_footprint;
+    }
+    else {
+        for (var i = 0u; i < 4u; i++) {
+            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
+            spread.y = max(spread.y, length(at.direction - ray.direction));
+        }
+    }
+    return SquareRay(ray, spread);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
@@ -297,64 +341,62 @@ fn list_squares(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
         return;
     }
     let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let corner = view.tile_origin / view.square + place;
-    let low = vec2f(corner * view.square);
-    let side = f32(view.square);
-    let ray = view_ray(low + 0.5 * side);
-    var spread = vec2f(0.0);
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        spread.x = 0.7072 * side * view.pixel_footprint;
-    }
-    else {
-        for (var i = 0u; i < 4u; i++) {
-            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
-            spread.y = max(spread.y, length(at.direction - ray.direction));
-        }
-    }
+    let middle = square_ray(view.tile_origin / view.square + place);
     let first = square * (view.capacity + 1u);
     let last = first + view.capacity;
     var end = first + 1u;
     for (var wave = 0u; wave < view.wave_count; wave++) {
-        let local = wave_ray(wave, ray, 1e30, spread);
+        let local = wave_ray(wave, middle.ray, 1e30, middle.spread);
         if (local.low >= local.high) {
             continue;
         }
         let head = end;
         end += 1u;
+        let numbers = ray_wave(wave);
         let leaves = waves[wave].leaves;
+        let root = waves[wave].node_first;
         var node = select(0u, 1u, leaves > 0u);
         while ((node != 0u)) {
-            let fit = node_fits(waves[wave].node_first + node, wave, local, spread);
-            if (fit == NODE_MISSED) {
-                node = next_node(node);
-            }
-            else if (fit == NODE_FITS || node >= leaves) {
+            let fit = node_fits(root + node, numbers, local, middle.spread);
+            let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
+            if (is_used) {
                 if (end <= last) {
-                    lists[end] = ENTRY_NODE | (waves[wave].node_first + node);
+                    lists[end] = root + node;
                 }
                 end += 1u;
-                node = next_node(node);
             }
-            else {
-                node = 2u * node;
-            }
+            node = select(2u * node, next_node(node), is_used || fit == NODE_MISSED);
             node = select(node, 0u, node == 1u);
         }
+        var ends = 0u;
         let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
         for (var i = first_end; i < 4u; i++) {
-            if (end_is_near(i, wave, local, spread)) {
-                if (end <= last) {
-                    lists[end] = ENTRY_END | i;
-                }
-                end += 1u;
+            if (end_is_near(i, end_place(i, wave), numbers.radius, local, middle.spread)) {
+                ends |= 1u << i;
             }
         }
-        if (end == head + 1u) {
+        let count = end - head - 1u;
+        if (count + ends == 0u) {
             end = head;
         }
         else if (head <= last) {
-            lists[head] = ENTRY_WAVE | wave;
+            lists[head] = wave | (ends << 8u) | (min(count, 65535u) << 12u);
         }
     }
-    lists[first] = select(end - first - 1u, LIST_FULL, end > last + 1u);
+    lists[first] = min(end - first - 1u, view.capacity);
+    let rows = view.square * view.square / 64u;
+    if (end > last + 1u) {
+        let i = atomicAdd(&full_squares.count, 1u);
+        full_squares.squares[i] = square;
+        atomicMax(&full_squares.groups, min(i + 1u, 65535u));
+        full_squares.rows = rows;
+        full_squares.layers = 1u;
+    }
+    else if (end > first + 1u) {
+        let i = atomicAdd(&used_squares.count, 1u);
+        used_squares.squares[i] = square;
+        atomicMax(&used_squares.groups, min(i + 1u, 65535u));
+        used_squares.rows = rows;
+        used_squares.layers = 1u;
+    }
 }

@@ -10,13 +10,16 @@ use crate::render::gpu::{
     bindings::{Binding as B, group, layout, pipeline_layout},
     timing::Timer,
 };
-use crate::render::{prepare::Prepared, targets::Targets};
+use crate::render::{
+    prepare::{Prepared, waves::GlowKind},
+    targets::Targets,
+};
 
 pub(crate) struct CompositePass {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: Mutex<HashMap<wgpu::TextureFormat, Arc<wgpu::RenderPipeline>>>,
+    made: Mutex<HashMap<(wgpu::TextureFormat, GlowKind), Arc<wgpu::RenderPipeline>>>,
 }
 
 impl CompositePass {
@@ -58,7 +61,7 @@ impl CompositePass {
                 (5, prepared.waves.glow.as_entire_binding()),
             ],
         );
-        let pipeline = self.pipeline(device, format);
+        let pipeline = self.pipeline(device, format, prepared.waves.glow_kind(&prepared.style));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("composite"),
             color_attachments: &[cleared(output, None)],
@@ -74,7 +77,10 @@ impl CompositePass {
         &self,
         device: &wgpu::Device,
         format: wgpu::TextureFormat,
+        glow: GlowKind,
     ) -> Arc<wgpu::RenderPipeline> {
+        let number = |on: bool| f64::from(u8::from(on));
+        let constants = [("has_glow", number(glow.shows)), ("glow_mixes", number(glow.mixes))];
         let make = || {
             Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("composite"),
@@ -91,7 +97,10 @@ impl CompositePass {
                 fragment: Some(wgpu::FragmentState {
                     module: &self.module,
                     entry_point: Some("composite_fragment"),
-                    compilation_options: Default::default(),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: &constants,
+                        ..Default::default()
+                    },
                     targets: &[Some(format.into())],
                 }),
                 multiview_mask: None,
@@ -99,6 +108,6 @@ impl CompositePass {
             }))
         };
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(made.entry(format).or_insert_with(make))
+        Arc::clone(made.entry((format, glow)).or_insert_with(make))
     }
 }

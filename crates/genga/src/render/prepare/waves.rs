@@ -10,10 +10,11 @@ use crate::render::{
     view::{Projected, View},
 };
 use crate::scene::{
-    Pose, Projection, Scene, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
+    MAX_WAVES, Pose, Projection, Scene, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
     wave_curve::{WaveCurve, domain},
 };
 use crate::srgb::linear_from_srgb;
+use crate::style::{BlendSpace, Style};
 
 /// The waves of a scene at a pose.
 pub(crate) struct WaveData {
@@ -30,6 +31,102 @@ pub(crate) struct WaveData {
     /// Layers of the glow target, in the order in which they are added.
     pub(crate) layers: Vec<(WaveOrder, WaveBlend)>,
     pub(crate) method: WaveMethod,
+    pub(crate) kind: ReferenceKind,
+    fades: bool,
+    /// For each wave: a sphere round all its glow in the world, and its ε.
+    spheres: Vec<(Vec3, f32, f32)>,
+}
+
+/// What the composite is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct GlowKind {
+    /// There are waves.
+    pub(crate) shows: bool,
+    /// Some wave's blend space is not the style's.
+    pub(crate) mixes: bool,
+}
+
+impl WaveData {
+    pub(crate) fn glow_kind(&self, style: &Style) -> GlowKind {
+        let is_linear = style.paint.blend_space == BlendSpace::Linear;
+        let is_other = |(_, blend): &(_, WaveBlend)| (*blend == WaveBlend::Linear) != is_linear;
+        GlowKind { shows: !self.layers.is_empty(), mixes: self.layers.iter().any(is_other) }
+    }
+}
+
+/// What the shader of the pixels is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ExactKind {
+    /// Some wave has an exponent j that is neither 0 nor 1.
+    pub(crate) fades: bool,
+    /// Some soft core is less than half a pixel somewhere.
+    pub(crate) core_grows: bool,
+}
+
+impl WaveData {
+    /// What a view needs.
+    pub(crate) fn exact_kind(&self, view: &View, projected: &Projected) -> ExactKind {
+        let eye = Vec3::from(view.camera.world_from_camera.translation);
+        let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
+            let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
+            !(core >= 0.5 * projected.pixel_footprint * distance)
+        };
+        ExactKind { fades: self.fades, core_grows: self.spheres.iter().any(grows) }
+    }
+}
+
+/// What the reference method's shader is made for: what all waves have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct ReferenceKind {
+    pub(crate) curve_kind: u32,
+    pub(crate) point_count: u32,
+    pub(crate) second_count: u32,
+    pub(crate) order: u32,
+    pub(crate) is_even: bool,
+    pub(crate) has_more: bool,
+    pub(crate) thins: bool,
+}
+
+impl ReferenceKind {
+    /// Any waves at all.
+    const ANY: Self = Self {
+        curve_kind: 255,
+        point_count: 0,
+        second_count: 0,
+        order: 0,
+        is_even: false,
+        has_more: true,
+        thins: true,
+    };
+
+    fn of(waves: &[GpuWave], method: WaveMethod) -> Self {
+        let mut kinds = waves.iter().map(|wave| Self::of_one(wave, method));
+        let Some(first) = kinds.next() else { return Self::ANY };
+        if kinds.all(|kind| kind == first) { first } else { Self::ANY }
+    }
+
+    fn of_one(wave: &GpuWave, method: WaveMethod) -> Self {
+        let curve = &wave.curve;
+        let fits = match curve.kind {
+            gpu::CURVE_LINE | gpu::CURVE_HELIX => true,
+            gpu::CURVE_TRIG => curve.count.max(curve.count_z) <= 8,
+            gpu::CURVE_BEZIER => (3..=16).contains(&curve.count),
+            gpu::CURVE_B_SPLINE => curve.count <= 16 && curve.order <= 4,
+            _ => false,
+        };
+        if !fits || curve.noise_amplitude > 0.0 {
+            return Self::ANY;
+        }
+        Self {
+            curve_kind: curve.kind,
+            point_count: curve.count,
+            second_count: curve.count_z,
+            order: curve.order,
+            is_even: wave.flags & gpu::WAVE_EVEN != 0,
+            has_more: wave.profile_count > 0 || wave.swell != Vec2::ZERO || wave.attenuation > 0.0,
+            thins: matches!(method, WaveMethod::Simpson { thinning: 2.., .. }),
+        }
+    }
 }
 
 impl WaveData {
@@ -40,11 +137,11 @@ impl WaveData {
         let stored = Usage::STORAGE;
         let buffer = |label, usage, bytes: &[u8]| bindings::buffer(device, queue, label, usage, bytes);
         let uniform = Usage::UNIFORM;
-        let wave = bytemuck::bytes_of(&GpuWave::zeroed()).to_vec();
+        let none = vec![GpuWave::zeroed(); MAX_WAVES];
         let node = bytemuck::bytes_of(&WaveNode::zeroed()).to_vec();
         Self {
             view: buffer("wave view", uniform, bytemuck::bytes_of(&WaveView::zeroed())),
-            waves: buffer("waves", stored, &wave),
+            waves: buffer("waves", uniform, bytemuck::cast_slice(&none)),
             data: buffer("wave data", stored, &[0; 4]),
             nodes: buffer("wave nodes", stored, &node),
             glow: buffer("glow", uniform, bytemuck::bytes_of(&Glow::zeroed())),
@@ -52,6 +149,9 @@ impl WaveData {
             most_leaves: 0,
             layers: Vec::new(),
             method: WaveMethod::Exact,
+            kind: ReferenceKind::ANY,
+            fades: false,
+            spheres: Vec::new(),
         }
     }
 
@@ -75,6 +175,9 @@ impl WaveData {
             let layer = self.layers.iter().position(|&layer| layer == key).unwrap_or(0);
             packer.add(wave, pose, layer as u32);
         }
+        self.fades = packer.waves.iter().any(|w| w.attenuation != 0.0 && w.attenuation != 1.0);
+        self.spheres = packer.waves.iter().map(sphere).collect();
+        self.kind = ReferenceKind::of(&packer.waves, self.method);
         self.count = packer.waves.len() as u32;
         self.most_leaves = packer.waves.iter().map(|wave| wave.leaves).max().unwrap_or(0);
         let fill = |buffer: &mut wgpu::Buffer, label, bytes: &[u8]| {
@@ -84,7 +187,7 @@ impl WaveData {
                 queue.write_buffer(buffer, 0, bytes);
             }
         };
-        fill(&mut self.waves, "waves", bytemuck::cast_slice(&packer.waves));
+        queue.write_buffer(&self.waves, 0, bytemuck::cast_slice(&packer.waves));
         fill(&mut self.data, "wave data", bytemuck::cast_slice(&packer.data));
         let node_bytes = u64::from(packer.nodes.max(1)) * size_of::<WaveNode>() as u64;
         if self.nodes.size() < node_bytes {
@@ -293,6 +396,15 @@ fn bound(curve: &WaveCurve<'_>, bounds: &[f64], samples: &[DVec3]) -> Vec4 {
     }
     let radius = 0.5 * (high - low).length() * 1.05;
     (0.5 * (low + high)).as_vec3().extend(radius as f32)
+}
+
+/// A sphere round all that glows, in the world, and ε.
+fn sphere(wave: &GpuWave) -> (Vec3, f32, f32) {
+    let local = wave.bound;
+    let axes = [wave.axis_x, wave.axis_y, wave.axis_z].map(Vec4::truncate);
+    let middle = wave.origin.truncate() + axes[0] * local.x + axes[1] * local.y + axes[2] * local.z;
+    let glow = if wave.radius > 0.0 { wave.radius } else { wave.origin.w };
+    (middle, local.w + glow, wave.core)
 }
 
 /// Radius about the middle of the bound, parallel to x, that holds the curve.
