@@ -95,7 +95,7 @@ impl Saver {
 fn ending(kind: LayerKind) -> &'static str {
     match kind {
         LayerKind::Color | LayerKind::Lines => "png",
-        LayerKind::Depth | LayerKind::Normal | LayerKind::Ids => "exr",
+        LayerKind::Depth | LayerKind::Normal | LayerKind::Ids | LayerKind::Energy => "exr",
     }
 }
 
@@ -103,6 +103,7 @@ fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
     let names: &[&str] = match layer.kind {
         LayerKind::Color | LayerKind::Lines => &["R", "G", "B", "A"],
         LayerKind::Depth => &["Z"],
+        LayerKind::Energy => &["Y"],
         LayerKind::Normal => &["N.X", "N.Y", "N.Z"],
         LayerKind::Ids => &["id.object", "id.material", "id.line"],
     };

@@ -160,6 +160,8 @@ pub(crate) enum LayerName {
     Ids,
     /// Lines alone (PNG)
     Lines,
+    /// Energy of the waves, 32-bit float (EXR)
+    Energy,
 }
 
 impl LayerName {
@@ -171,6 +173,7 @@ impl LayerName {
             Self::Normal => LayerKind::Normal,
             Self::Ids => LayerKind::Ids,
             Self::Lines => LayerKind::Lines,
+            Self::Energy => LayerKind::Energy,
         }
     }
 }

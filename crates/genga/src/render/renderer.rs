@@ -25,7 +25,7 @@ use super::{
     targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
-use crate::scene::{Pose, Scene};
+use crate::scene::{Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
 
 /// Draws prepared scenes. Make one per device; it holds pipelines and targets, never a scene.
@@ -137,7 +137,7 @@ impl Renderer {
             let reason = "the pose or scene is not the one that was prepared".to_owned();
             return Err(RenderError::View { reason });
         }
-        scene.validate_waves()?;
+        crate::scene::validate_waves(&scene.waves, scene.wave_method, scene.nodes.len())?;
         scope::checked(&self.device, || {
             prepared.write_pose(&self.device, &self.queue, scene, pose);
             let mut encoder = self.encoder("deform");
@@ -147,7 +147,7 @@ impl Renderer {
         })
     }
 
-    /// Takes over the waves of a scene, which may all have changed, and places them at a pose:
+    /// Takes over waves, which may all have changed, and places them at a pose: as
     /// [`Self::set_pose`] without the geometry.
     ///
     /// # Errors
@@ -155,12 +155,13 @@ impl Renderer {
     pub fn set_waves(
         &self,
         prepared: &mut Prepared,
-        scene: &Scene,
+        waves: &[Wave],
+        method: WaveMethod,
         pose: &Pose,
     ) -> Result<(), RenderError> {
-        scene.validate_waves()?;
+        crate::scene::validate_waves(waves, method, pose.world_from_node.len())?;
         scope::checked(&self.device, || {
-            prepared.waves.write(&self.device, &self.queue, scene, pose);
+            prepared.waves.write(&self.device, &self.queue, waves, method, pose);
             Ok(())
         })
     }

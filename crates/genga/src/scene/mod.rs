@@ -30,6 +30,7 @@ pub use mesh::{Mesh, MorphTarget, Primitive};
 pub use node::{Node, Skin, Transform};
 pub use pose::Pose;
 pub use validate::SceneError;
+pub(crate) use validate::validate_waves;
 pub use wave::{
     MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder, WavePlacement, WaveShape, WaveTone,
 };

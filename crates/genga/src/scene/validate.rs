@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Interpolation, MAX_WAVES, Scene, WaveMethod};
+use super::{Interpolation, MAX_WAVES, Scene, Wave, WaveMethod};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -132,35 +132,38 @@ fn check(
     }
 }
 
-impl Scene {
-    /// Checks the waves alone, which may change from frame to frame.
-    ///
-    /// # Errors
-    /// The first thing that is wrong.
-    pub fn validate_waves(&self) -> Result<(), SceneError> {
-        let (count, most) = (self.waves.len(), MAX_WAVES);
-        if count > most {
-            return Err(SceneError::TooManyWaves { count, most });
-        }
-        for (index, wave) in self.waves.iter().enumerate() {
-            wave.check(self.nodes.len()).map_err(|reason| {
-                SceneError::Wave { index, name: wave.name.clone(), reason }
-            })?;
-        }
-        if let WaveMethod::Simpson { points, thinning } = self.wave_method
-            && !((2..=4000).contains(&points) && (1..=64).contains(&thinning))
-        {
-            return Err(SceneError::WaveMethod { points, thinning });
-        }
-        Ok(())
+/// Checks waves that may hold on to `nodes` nodes.
+///
+/// # Errors
+/// The first thing that is wrong.
+pub(crate) fn validate_waves(
+    waves: &[Wave],
+    method: WaveMethod,
+    nodes: usize,
+) -> Result<(), SceneError> {
+    let (count, most) = (waves.len(), MAX_WAVES);
+    if count > most {
+        return Err(SceneError::TooManyWaves { count, most });
     }
+    for (index, wave) in waves.iter().enumerate() {
+        let wrong = |reason| SceneError::Wave { index, name: wave.name.clone(), reason };
+        wave.check(nodes).map_err(wrong)?;
+    }
+    if let WaveMethod::Simpson { points, thinning } = method
+        && !((2..=4000).contains(&points) && (1..=64).contains(&thinning))
+    {
+        return Err(SceneError::WaveMethod { points, thinning });
+    }
+    Ok(())
+}
 
+impl Scene {
     /// Checks that every index is in range, every attribute complete and the nodes a forest.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), SceneError> {
-        self.validate_waves()?;
+        validate_waves(&self.waves, self.wave_method, self.nodes.len())?;
         for (i, node) in self.nodes.iter().enumerate() {
             let what = || format!("node {i} '{}'", node.name);
             check(&what, "mesh", node.mesh, self.meshes.len())?;

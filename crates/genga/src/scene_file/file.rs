@@ -5,7 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
-use super::{CameraEntry, LightEntry, Located, ModelEntry, camera, light};
+use super::{
+    CameraEntry, LightEntry, Located, ModelEntry, WaveEntry, WaveReference, camera, light, wave,
+};
 use crate::FileError;
 use crate::style::{Style, StyleError, is_style_path};
 use crate::toml_file::{Document, list_with, read_text, schema_of, show_path};
@@ -38,6 +40,10 @@ pub struct SceneFile {
     pub camera: Option<CameraEntry>,
     /// Lights besides those of the models.
     pub lights: Vec<LightEntry>,
+    /// Energy waves.
+    pub waves: Vec<WaveEntry>,
+    /// How they are integrated, if not exactly.
+    pub wave_reference: Option<WaveReference>,
     /// The picture to make.
     pub picture: Picture,
     /// Where relative paths start.
@@ -83,6 +89,13 @@ struct Written {
     #[serde(default, deserialize_with = "lights")]
     #[schemars(with = "Vec<light::Written>", length(max = 1000))]
     light: Vec<LightEntry>,
+    /// Energy waves.
+    #[serde(default, deserialize_with = "waves")]
+    #[schemars(with = "Vec<wave::Written>", length(max = 240))]
+    wave: Vec<WaveEntry>,
+    /// Abe's own method for the waves instead of the exact one, for comparison.
+    #[serde(default)]
+    wave_reference: Option<WaveReference>,
     /// The picture to make.
     #[serde(default)]
     picture: Picture,
@@ -90,6 +103,10 @@ struct Written {
 
 fn lights<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LightEntry>, D::Error> {
     // For the place of each light's own errors.
+    list_with(deserializer, |_, _| Ok(()))
+}
+
+fn waves<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<WaveEntry>, D::Error> {
     list_with(deserializer, |_, _| Ok(()))
 }
 
@@ -130,6 +147,8 @@ impl SceneFile {
             models: written.model,
             camera: written.camera,
             lights: written.light,
+            waves: written.wave,
+            wave_reference: written.wave_reference,
             picture: written.picture,
             directory,
             path: path.map(Path::to_owned),

@@ -31,6 +31,7 @@ mod merge;
 mod model;
 #[cfg(test)]
 mod tests;
+mod wave;
 
 pub use crate::toml_file::Located;
 pub use assemble::Assembled;
@@ -38,3 +39,4 @@ pub use camera::{CameraEntry, OrbitCamera, PlacedCamera, SceneCamera};
 pub use file::{Picture, SceneFile, SceneFileError, json_schema};
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};
+pub use wave::{WaveEntry, WaveReference};

@@ -138,7 +138,7 @@ impl Prepared {
         scene: &Scene,
         pose: &Pose,
     ) {
-        self.waves.write(device, queue, scene, pose);
+        self.waves.write(device, queue, &scene.waves, scene.wave_method, pose);
         let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
         let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
         for deform in &self.deform.nodes {

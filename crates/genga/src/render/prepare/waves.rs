@@ -10,7 +10,7 @@ use crate::render::{
     view::{Projected, View},
 };
 use crate::scene::{
-    MAX_WAVES, Pose, Projection, Scene, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
+    MAX_WAVES, Pose, Projection, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
     wave_curve::{WaveCurve, domain},
 };
 use crate::srgb::linear_from_srgb;
@@ -160,11 +160,12 @@ impl WaveData {
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        scene: &Scene,
+        waves: &[Wave],
+        method: WaveMethod,
         pose: &Pose,
     ) {
-        self.method = scene.wave_method;
-        let mut sorted: Vec<&Wave> = scene.waves.iter().filter(|wave| shows(wave)).collect();
+        self.method = method;
+        let mut sorted: Vec<&Wave> = waves.iter().filter(|wave| shows(wave)).collect();
         // Pixels write one layer after the other.
         sorted.sort_by_key(|wave| (wave.order, wave.blend));
         self.layers = sorted.iter().map(|wave| (wave.order, wave.blend)).collect();
