@@ -63,6 +63,7 @@ pub(crate) enum Command {
 Workloads:
   suzuki  11,098 vertices at 1024x768 (Suzuki 2004, 5.2)
   okuya   three objects at three sizes, two line methods (Okuya et al. 2015, table 3)
+  waves   energy waves, the exact method and Abe's (2024, tables 4.4 and 4.5)
   import  a file of a million triangles, read and prepared
 
 Each frame is drawn by turns with a plain one: the same geometry, one pass, Lambert and texture,

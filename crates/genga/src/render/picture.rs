@@ -342,7 +342,9 @@ impl Texels {
 fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
     let data = match kind {
         LayerKind::Color | LayerKind::Lines => LayerData::Rgba8(vec![0; 4 * pixels]),
-        LayerKind::Depth | LayerKind::Energy => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
+        LayerKind::Depth | LayerKind::Energy => {
+            LayerData::F32 { channels: 1, values: vec![0.0; pixels] }
+        }
         LayerKind::Normal => LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] },
         LayerKind::Ids => LayerData::U32 { channels: 3, values: vec![0; 3 * pixels] },
     };

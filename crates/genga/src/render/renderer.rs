@@ -199,14 +199,7 @@ impl Renderer {
             let mut timer = Timer::off();
             let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
             let output = (target, format);
-            self.composite.run(
-                &self.device,
-                &mut encoder,
-                prepared,
-                &targets,
-                output,
-                &mut timer,
-            );
+            self.composite.run(&self.device, &mut encoder, prepared, &targets, output, &mut timer);
             self.queue.submit([encoder.finish()]);
             Ok(())
         })
@@ -383,7 +376,14 @@ impl Renderer {
                 Workload::Waves => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);
                     let targets = self.targets_of(prepared, view, tile);
-                    self.draw_waves(&mut encoder, prepared, view, tile, (&projected, &targets), timer);
+                    self.draw_waves(
+                        &mut encoder,
+                        prepared,
+                        view,
+                        tile,
+                        (&projected, &targets),
+                        timer,
+                    );
                 }
                 Workload::Plain => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);

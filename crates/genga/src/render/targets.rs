@@ -86,14 +86,15 @@ pub(crate) struct ListGrid {
 
 impl ListGrid {
     fn new(pixels: [u32; 2]) -> Self {
-        const CAPACITY: u32 = 96;
-        const MOST_BYTES: u64 = 64 << 20;
+        // As much as 64 MiB hold: long lists are rare, but walking the trees instead is slow.
+        const WORDS: u32 = 16 << 20;
         let grid = |square: u32| {
             let squares = pixels.map(|n| n.div_ceil(square) + 1);
-            Self { square, squares, capacity: CAPACITY }
+            let words = WORDS / (squares[0] * squares[1]);
+            Self { square, squares, capacity: words.saturating_sub(1).clamp(96, 1024) }
         };
         let small = grid(8);
-        if small.bytes() <= MOST_BYTES { small } else { grid(16) }
+        if small.bytes() <= u64::from(WORDS) * 4 { small } else { grid(16) }
     }
 
     /// Squares in all.

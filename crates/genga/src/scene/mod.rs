@@ -32,7 +32,8 @@ pub use pose::Pose;
 pub use validate::SceneError;
 pub(crate) use validate::validate_waves;
 pub use wave::{
-    MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder, WavePlacement, WaveShape, WaveTone,
+    MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder,
+    WavePlacement, WaveShape, WaveTone,
 };
 
 /// A whole model or set: everything that can be drawn, posed and lit.

@@ -25,7 +25,6 @@ impl Wave {
             ("alpha", self.alpha, 0.0),
             ("core", self.core, 0.0),
             ("radius", self.radius.unwrap_or(1.0), 1e-6),
-            ("reach", self.reach, 1e-6),
             ("attenuation", self.attenuation, 0.0),
             ("swell at the tail", self.swell[0], 0.0),
             ("swell at the head", self.swell[1], 0.0),
@@ -40,6 +39,9 @@ impl Wave {
                 return Err(format!("has the {name} {value}: it must be {least} to {LARGEST}"));
             }
         }
+        if !(self.reach >= 1e-6 && self.reach <= 1e12) {
+            return Err(format!("has the reach {}: it must be over 0 and up to 1e12", self.reach));
+        }
         let colors = self.ramp.iter().map(|tone| tone.color).chain([self.color]);
         if colors.into_iter().any(|color| !color.is_finite() || color.min_element() < 0.0) {
             return Err("has a colour that is negative or not a number".to_owned());
@@ -50,20 +52,26 @@ impl Wave {
                 "grows from {tail} to {head}: both must be 0 to 1, the first one not larger"
             ));
         }
-        if self.profile.iter().any(|[s, factor]| {
-            !((0.0..=1.0).contains(s) && *factor >= 0.0 && *factor <= LARGEST)
-        }) || self.profile.windows(2).any(|pair| pair[0][0] >= pair[1][0])
+        if self
+            .profile
+            .iter()
+            .any(|[s, factor]| !((0.0..=1.0).contains(s) && *factor >= 0.0 && *factor <= LARGEST))
+            || self.profile.windows(2).any(|pair| pair[0][0] >= pair[1][0])
         {
-            return Err("has a profile whose places do not rise from 0 to 1, or whose factors are \
+            return Err(
+                "has a profile whose places do not rise from 0 to 1, or whose factors are \
                         not 0 or more"
-                .to_owned());
+                    .to_owned(),
+            );
         }
         let energies = || self.ramp.iter().map(|tone| tone.energy);
         if energies().any(|e| !(e > 0.0 && e <= LARGEST))
             || self.ramp.windows(2).any(|pair| pair[0].energy >= pair[1].energy)
             || self.ramp.len() > 16
         {
-            return Err("has a ramp that is not at most 16 colours at rising energies over 0".into());
+            return Err(
+                "has a ramp that is not at most 16 colours at rising energies over 0".into()
+            );
         }
         if !self.noise.phase.is_finite() || self.noise.frequency > 4000.0 {
             return Err("has noise with a phase that is no number, or over 4000 bends".to_owned());
@@ -106,7 +114,8 @@ impl Wave {
     fn check_shape(&self) -> Result<(), String> {
         let length = |length: f32| {
             let is_right = length > 1e-6 && length <= LARGEST;
-            let wrong = || format!("has the length {length}: it must be over 0 and up to {LARGEST}");
+            let wrong =
+                || format!("has the length {length}: it must be over 0 and up to {LARGEST}");
             if is_right { Ok(()) } else { Err(wrong()) }
         };
         let turning = |turns: f32| {
@@ -115,7 +124,9 @@ impl Wave {
         };
         match &self.shape {
             WaveShape::Sphere | WaveShape::Cylinder { length: None } => Ok(()),
-            WaveShape::Cylinder { length: Some(l) } | WaveShape::Capsule { length: l } => length(*l),
+            WaveShape::Cylinder { length: Some(l) } | WaveShape::Capsule { length: l } => {
+                length(*l)
+            }
             WaveShape::Helix { length: l, radius, turns, phase } => {
                 length(*l)?;
                 turning(*turns)?;

@@ -191,7 +191,10 @@ impl<'a> WaveCurve<'a> {
         let at = |part: f64| self.at(s0 + (s1 - s0) * part);
         let [a, m, b] = [at(0.0), at(0.5), at(1.0)];
         let is_straight = self.wave.noise.amplitude == 0.0
-            && matches!(self.wave.shape, WaveShape::Polyline { .. } | WaveShape::Capsule { .. });
+            && matches!(
+                self.wave.shape,
+                WaveShape::Polyline { .. } | WaveShape::Capsule { .. } | WaveShape::Cylinder { .. }
+            );
         let fits = is_straight
             || [0.25, 0.75].into_iter().all(|part| {
                 let p = at(part);

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use super::merge::Merged;
 use super::{
-    CameraEntry, ClipEntry, Located, ModelEntry, SceneCamera, SceneFile, WaveEntry,
+    CameraEntry, ClipEntry, Located, ModelEntry, NodeNames, SceneCamera, SceneFile, WaveEntry,
 };
 use crate::FileError;
 use crate::scene::{Node, Pose, Scene, Wave, WaveMethod, WavePlacement};
@@ -73,8 +73,7 @@ impl SceneFile {
             let wave = self.placed_wave(entry, &merged.scene)?;
             merged.scene.waves.push(wave);
         }
-        merged.scene.wave_method =
-            self.wave_reference.map_or(WaveMethod::Exact, WaveMethod::from);
+        merged.scene.wave_method = self.wave_reference.map_or(WaveMethod::Exact, WaveMethod::from);
         let camera = match &self.camera {
             None => None,
             Some(CameraEntry::Orbit(orbit)) => Some(SceneCamera::Orbit(*orbit)),
@@ -119,11 +118,13 @@ impl SceneFile {
 
     /// A wave at its moment, with the nodes that it holds on to.
     fn placed_wave(&self, entry: &WaveEntry, scene: &Scene) -> Result<Wave, FileError> {
-        let nodes = |names: &[Located<String>]| {
-            names.iter().map(|name| self.node(name, scene)).collect::<Result<Vec<_>, _>>()
+        let nodes = |names: &Option<Located<NodeNames>>| match names {
+            None => Ok(Vec::new()),
+            Some(at) => at.names().iter().map(|name| self.node(at, name, scene)).collect(),
         };
         let mut wave = entry.wave.clone();
-        let (from_nodes, to_nodes) = (nodes(&entry.from_nodes)?, nodes(&entry.to_nodes)?);
+        let (from_nodes, to_nodes): (Vec<usize>, Vec<usize>) =
+            (nodes(&entry.from_nodes)?, nodes(&entry.to_nodes)?);
         match &mut wave.placement {
             WavePlacement::At { anchor, .. } => anchor.nodes = from_nodes,
             WavePlacement::Between { from, to, .. } => {
@@ -134,12 +135,12 @@ impl SceneFile {
         Ok(entry.motion.at(&wave, entry.time))
     }
 
-    fn node(&self, name: &Located<String>, scene: &Scene) -> Result<usize, FileError> {
-        let found = scene.nodes.iter().position(|node| node.name == **name);
+    fn node(&self, at: &Located<NodeNames>, name: &str, scene: &Scene) -> Result<usize, FileError> {
+        let found = scene.nodes.iter().position(|node| node.name == name);
         found.ok_or_else(|| {
             let names = scene.nodes.iter().map(|node| node.name.as_str());
             let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-            self.error(name, not_there("node", name, &names))
+            self.error(at, not_there("node", name, &names))
         })
     }
 

@@ -39,4 +39,4 @@ pub use camera::{CameraEntry, OrbitCamera, PlacedCamera, SceneCamera};
 pub use file::{Picture, SceneFile, SceneFileError, json_schema};
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};
-pub use wave::{WaveEntry, WaveReference};
+pub use wave::{NodeNames, WaveEntry, WaveReference};

@@ -15,10 +15,10 @@ use crate::style::{BlendSpace, Color};
 pub struct WaveEntry {
     /// The wave at the beginning of its motion, without the nodes that it holds on to.
     pub wave: Wave,
-    /// Names of the nodes where it begins.
-    pub from_nodes: Vec<Located<String>>,
-    /// Names of the nodes where it ends.
-    pub to_nodes: Vec<Located<String>>,
+    /// The nodes where it begins.
+    pub from_nodes: Option<Located<NodeNames>>,
+    /// The nodes where it ends.
+    pub to_nodes: Option<Located<NodeNames>>,
     /// How it moves.
     pub motion: WaveMotion,
     /// The moment of the motion in seconds.
@@ -61,21 +61,23 @@ enum Order {
     Over,
 }
 
-/// Names of one or several nodes; several are averaged.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+/// Names of one or several nodes; the places of several are averaged.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(untagged)]
-#[schemars(rename = "WaveNodes")]
-enum Nodes {
-    One(Located<String>),
-    Several(Vec<Located<String>>),
+pub enum NodeNames {
+    /// One node.
+    One(String),
+    /// Several.
+    Several(#[schemars(length(min = 1, max = 64))] Vec<String>),
 }
 
-impl Nodes {
-    fn names(nodes: Option<Self>) -> Vec<Located<String>> {
-        match nodes {
-            None => Vec::new(),
-            Some(Self::One(name)) => vec![name],
-            Some(Self::Several(names)) => names,
+impl NodeNames {
+    /// All the names.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Several(names) => names,
         }
     }
 }
@@ -181,12 +183,12 @@ pub(super) struct Written {
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     from: [f32; 3],
     /// The node or nodes where it begins.
-    from_node: Option<Nodes>,
+    from_node: Option<Located<NodeNames>>,
     /// Where it ends: the curve is turned and stretched to end there.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     to: Option<[f32; 3]>,
     /// The node or nodes where it ends.
-    to_node: Option<Nodes>,
+    to_node: Option<Located<NodeNames>>,
     /// Without 'to': where its x axis points; the scene's x by default.
     direction: Option<[f32; 3]>,
     /// Whether the direction turns with the first node of 'from_node'.
@@ -330,8 +332,8 @@ impl TryFrom<Written> for WaveEntry {
         let m = w.motion;
         Ok(Self {
             wave,
-            from_nodes: Nodes::names(w.from_node),
-            to_nodes: Nodes::names(w.to_node),
+            from_nodes: w.from_node,
+            to_nodes: w.to_node,
             motion: WaveMotion {
                 head_speed: m.head_speed,
                 duration: m.duration,

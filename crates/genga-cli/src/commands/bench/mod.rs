@@ -4,6 +4,7 @@ mod frames;
 mod import;
 mod report;
 mod sample;
+mod waves;
 mod workload;
 
 use std::time::Duration;
@@ -35,6 +36,10 @@ pub(crate) fn run(args: &BenchArgs, console: &Console) -> Outcome {
         match job {
             Job::Frames(case) => {
                 report.frames.push(frames::measure(case, runs, &graphics, console, &mut step)?);
+            }
+            Job::Waves => {
+                report.waves = Some(waves::measure(runs, args.size, &graphics, console)?);
+                step(runs);
             }
             Job::Import { triangles } => {
                 report.import.push(import::measure(*triangles, runs, &graphics, &mut step)?);

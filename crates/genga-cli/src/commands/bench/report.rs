@@ -3,6 +3,7 @@ use serde::Serialize;
 use super::frames::FrameReport;
 use super::import::ImportReport;
 use super::sample::Summary;
+use super::waves::WaveReport;
 use crate::commands::adapters::AdapterInfo;
 use crate::text::{one_line, table, thousands};
 
@@ -16,6 +17,7 @@ pub(super) struct Report {
     indirect_validation: bool,
     pub(super) frames: Vec<FrameReport>,
     pub(super) import: Vec<ImportReport>,
+    pub(super) waves: Option<WaveReport>,
 }
 
 impl Report {
@@ -28,6 +30,7 @@ impl Report {
             indirect_validation: flags.contains(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL),
             frames: Vec::new(),
             import: Vec::new(),
+            waves: None,
         }
     }
 
@@ -51,6 +54,10 @@ impl Report {
         for import in &self.import {
             text.push('\n');
             text.push_str(&import_text(import));
+        }
+        if let Some(waves) = &self.waves {
+            text.push('\n');
+            text.push_str(&waves.text());
         }
         text
     }

@@ -12,7 +12,7 @@ use crate::text::{nearest, one_line};
 use crate::{model, style_choice};
 
 /// Workloads with names; `--help` describes them.
-const NAMED: [&str; 3] = ["suzuki", "okuya", "import"];
+const NAMED: [&str; 4] = ["suzuki", "okuya", "waves", "import"];
 
 /// Triangles of the `import` workload.
 const IMPORT_TRIANGLES: usize = 1_000_000;
@@ -21,6 +21,8 @@ const IMPORT_TRIANGLES: usize = 1_000_000;
 pub(super) enum Job {
     /// One frame, over and over.
     Frames(Box<Case>),
+    /// Energy waves, in their own pictures.
+    Waves,
     /// Reading a file of so many triangles.
     Import { triangles: usize },
 }
@@ -48,6 +50,7 @@ pub(super) fn jobs(args: &BenchArgs, console: &Console) -> Outcome<Vec<Job>> {
                 jobs.push(case(args, "suzuki", scene, [1024, 768], None)?);
             }
             "okuya" => okuya(args, &mut jobs)?,
+            "waves" => jobs.push(Job::Waves),
             "import" => jobs.push(Job::Import { triangles: IMPORT_TRIANGLES }),
             file => jobs.push(model_case(args, file, console)?),
         }

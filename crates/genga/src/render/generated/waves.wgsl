@@ -27,9 +27,9 @@ var energy_target: texture_storage_2d<r32float, write>;
 @group(1) @binding(4)
 var<storage, read> squares: array<u32>;
 
-const MANY_CUTS: f32 = 3.0;
+const MANY_CUTS: f32 = 4.0;
 
-const MAX_CUTS: f32 = 24.0;
+const MAX_CUTS: f32 = 32.0;
 
 const NODE_FITS: u32 = 1u;
 
@@ -212,7 +212,7 @@ fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f) -> f32 {
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(sag / (wave.tolerance * distance));
+    return sqrt(3.0 * sag / (wave.tolerance * distance));
 }
 
 fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
@@ -385,14 +385,15 @@ fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
             return 0.0;
         }
     }
-    let nearest = clamp(-dot(e0, e1) / max(dot(e1, e1), 1e-20), range.x, range.y);
+    let e11 = dot(e1, e1);
+    let nearest = clamp(-dot(e0, e1) / max(e11, 1e-20), range.x, range.y);
     let nearest_core = core_at(wave, ray.middle + nearest);
     let near = e0 + nearest * e1;
     let distance = sqrt(max(dot(near, near) - bend * bend, 0.0) + nearest_core * nearest_core);
     let span = range.y - range.x;
     let length_x = span * abs(ray.direction.x);
     let growth = core_growth(wave, ray, range);
-    let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 3.0 * growth));
+    let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 0.8 * growth * inverseSqrt(wave.tolerance)));
     let cuts = ceil(clamp(wanted, 1.0, MAX_CUTS));
     var energy = 0.0;
     var t0 = range.x;
@@ -402,8 +403,12 @@ fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
             part_of_range = (exp(growth * part_of_range) - 1.0) / (exp(growth) - 1.0);
         }
         let t1 = mix(range.x, range.y, part_of_range);
-        let grown = core_grows && growth > 0.2;
-        let core = select(nearest_core, core_at(wave, ray.middle + 0.5 * (t0 + t1)), grown);
+        var core = nearest_core;
+        if (core_grows) {
+            let middle = 0.5 * (t0 + t1);
+            let all_along = min(2.0 * nearest_core / (sqrt(e11) * (t1 - t0) + 1e-20), 1.0);
+            core = core_at(wave, ray.middle + mix(clamp(nearest, t0, t1), middle, all_along));
+        }
         let core2 = core * core;
         let rim = rim_of(wave, core2);
         let xi = clamp((ray.origin.x + vec2f(t0, t1) * ray.direction.x - nx.x) * inverse, vec2f(-1.0), vec2f(1.0));
@@ -428,7 +433,7 @@ fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
     return energy;
 }
 
-fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> u32 {
     let nx = nodes[node].x;
     let x0 = max(nx.x - nx.y, wave.ends.x);
     let x1 = min(nx.x + nx.y, wave.ends.y);
@@ -445,18 +450,13 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let limits = vec2f(x1 + base - at, at + base - x0);
     var low = ray.low;
     var high = ray.high;
-    for (var i = 0; i < 2; i++) {
-        let slope = select(slopes.y, slopes.x, i == 0);
-        let limit = select(limits.y, limits.x, i == 0);
-        if (slope > 1e-12) {
-            high = min(high, limit / slope);
-        }
-        else if (slope < -1e-12) {
-            low = max(low, limit / slope);
-        }
-        else if (limit < 0.0) {
-            return NODE_MISSED;
-        }
+    let at_limit = limits / select(slopes, vec2f(1e-12), abs(slopes) < vec2f(1e-12));
+    high = min(high, select(1e30, at_limit.x, slopes.x > 1e-12));
+    high = min(high, select(1e30, at_limit.y, slopes.y > 1e-12));
+    low = max(low, select(-1e30, at_limit.x, slopes.x < -1e-12));
+    low = max(low, select(-1e30, at_limit.y, slopes.y < -1e-12));
+    if (any((abs(slopes) <= vec2f(1e-12)) & (limits < vec2f(0.0)))) {
+        return NODE_MISSED;
     }
     if (low >= high) {
         return NODE_MISSED;
@@ -501,7 +501,8 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let fits = error <= wave.tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
+    let strict = select(1.0, 0.05, surface - ray.middle < high);
+    let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
     return select(NODE_TOO_COARSE, NODE_FITS, fits);
 }
 
@@ -573,6 +574,18 @@ fn square_ray(square: vec2u) -> SquareRay {
     return SquareRay(ray, spread);
 }
 
+fn square_surface(square: vec2u, ray: ViewRay, depth: texture_depth_2d) -> f32 {
+    var nearest = 0.0;
+    let low = vec2i(square * view.square) - vec2i(view.tile_origin);
+    let last = vec2i(view.tile_size) - 1;
+    for (var i = 0; i < 16; i++) {
+        let offset = vec2i(i & 3, i >> 2) * i32(view.square - 1u) / 3;
+        let pixel = clamp(low + offset, vec2i(0), last);
+        nearest = max(nearest, textureLoad(depth, pixel * i32(view.gbuffer_scale), 0));
+    }
+    return ray_distance(ray, nearest);
+}
+
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
     if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
@@ -592,7 +605,9 @@ fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
     let ray = view_ray(vec2f(whole) + 0.5);
     let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0));
     let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let middle = square_ray(view.tile_origin / view.square + place);
+    let corner = view.tile_origin / view.square + place;
+    let middle = square_ray(corner);
+    let near_surface = square_surface(corner, middle.ray, depth);
     layer = 0u;
     layer_glow = vec4f(0.0);
     total = 0.0;
@@ -609,7 +624,7 @@ fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
         var energy = 0.0;
         var node = select(0u, 1u, leaves > 0u);
         while ((node != 0u)) {
-            let fit = node_fits(root + node, numbers, of_square, middle.spread);
+            let fit = node_fits(root + node, numbers, of_square, middle.spread, near_surface);
             let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
             if (is_used) {
                 energy += node_energy(root + node, numbers, local);

@@ -18,7 +18,10 @@ var<storage, read_write> used_squares: Squares;
 @group(1) @binding(2)
 var<storage, read_write> full_squares: Squares;
 
-const MANY_CUTS: f32 = 3.0;
+@group(1) @binding(3)
+var depth: texture_depth_2d;
+
+const MANY_CUTS: f32 = 4.0;
 
 const NODE_FITS: u32 = 1u;
 
@@ -154,7 +157,7 @@ fn core_at(wave: RayWave, distance: f32) -> f32 {
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(sag / (wave.tolerance * distance));
+    return sqrt(3.0 * sag / (wave.tolerance * distance));
 }
 
 fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {
@@ -201,7 +204,7 @@ fn next_node(node: u32) -> u32 {
     return next >> firstTrailingBit(next);
 }
 
-fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> u32 {
     let nx = nodes[node].x;
     let x0 = max(nx.x - nx.y, wave.ends.x);
     let x1 = min(nx.x + nx.y, wave.ends.y);
@@ -218,18 +221,13 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let limits = vec2f(x1 + base - at, at + base - x0);
     var low = ray.low;
     var high = ray.high;
-    for (var i = 0; i < 2; i++) {
-        let slope = select(slopes.y, slopes.x, i == 0);
-        let limit = select(limits.y, limits.x, i == 0);
-        if (slope > 1e-12) {
-            high = min(high, limit / slope);
-        }
-        else if (slope < -1e-12) {
-            low = max(low, limit / slope);
-        }
-        else if (limit < 0.0) {
-            return NODE_MISSED;
-        }
+    let at_limit = limits / select(slopes, vec2f(1e-12), abs(slopes) < vec2f(1e-12));
+    high = min(high, select(1e30, at_limit.x, slopes.x > 1e-12));
+    high = min(high, select(1e30, at_limit.y, slopes.y > 1e-12));
+    low = max(low, select(-1e30, at_limit.x, slopes.x < -1e-12));
+    low = max(low, select(-1e30, at_limit.y, slopes.y < -1e-12));
+    if (any((abs(slopes) <= vec2f(1e-12)) & (limits < vec2f(0.0)))) {
+        return NODE_MISSED;
     }
     if (low >= high) {
         return NODE_MISSED;
@@ -274,8 +272,16 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f) -> u32 {
     let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let fits = error <= wave.tolerance * max(0.3 * share, 0.02) && cuts <= MANY_CUTS;
+    let strict = select(1.0, 0.05, surface - ray.middle < high);
+    let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
     return select(NODE_TOO_COARSE, NODE_FITS, fits);
+}
+
+fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
+    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
+        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
+    }
+    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -302,6 +308,18 @@ fn square_ray(square: vec2u) -> SquareRay {
         }
     }
     return SquareRay(ray, spread);
+}
+
+fn square_surface(square: vec2u, ray: ViewRay, depth: texture_depth_2d) -> f32 {
+    var nearest = 0.0;
+    let low = vec2i(square * view.square) - vec2i(view.tile_origin);
+    let last = vec2i(view.tile_size) - 1;
+    for (var i = 0; i < 16; i++) {
+        let offset = vec2i(i & 3, i >> 2) * i32(view.square - 1u) / 3;
+        let pixel = clamp(low + offset, vec2i(0), last);
+        nearest = max(nearest, textureLoad(depth, pixel * i32(view.gbuffer_scale), 0));
+    }
+    return ray_distance(ray, nearest);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
@@ -341,7 +359,9 @@ fn list_squares(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
         return;
     }
     let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let middle = square_ray(view.tile_origin / view.square + place);
+    let corner = view.tile_origin / view.square + place;
+    let middle = square_ray(corner);
+    let surface = square_surface(corner, middle.ray, depth);
     let first = square * (view.capacity + 1u);
     let last = first + view.capacity;
     var end = first + 1u;
@@ -357,7 +377,7 @@ fn list_squares(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
         let root = waves[wave].node_first;
         var node = select(0u, 1u, leaves > 0u);
         while ((node != 0u)) {
-            let fit = node_fits(root + node, numbers, local, middle.spread);
+            let fit = node_fits(root + node, numbers, local, middle.spread, surface);
             let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
             if (is_used) {
                 if (end <= last) {

@@ -51,7 +51,7 @@ impl WavePass {
             device,
             "wave lists",
             compute,
-            &[(0, B::StorageWrite), (1, B::StorageWrite), (2, B::StorageWrite)],
+            &[(0, B::StorageWrite), (1, B::StorageWrite), (2, B::StorageWrite), (3, B::Depth)],
         );
         let targets = layout(
             device,
@@ -126,6 +126,7 @@ impl WavePass {
             (0, waves.lists.as_entire_binding()),
             (1, waves.used_squares.as_entire_binding()),
             (2, waves.full_squares.as_entire_binding()),
+            (3, R::TextureView(&targets.depth.view)),
         ];
         let lists = group(device, "wave lists", &self.lists, &lists);
         if is_exact {

@@ -135,7 +135,8 @@ impl WaveData {
         use bytemuck::Zeroable as _;
         use wgpu::BufferUsages as Usage;
         let stored = Usage::STORAGE;
-        let buffer = |label, usage, bytes: &[u8]| bindings::buffer(device, queue, label, usage, bytes);
+        let buffer =
+            |label, usage, bytes: &[u8]| bindings::buffer(device, queue, label, usage, bytes);
         let uniform = Usage::UNIFORM;
         let none = vec![GpuWave::zeroed(); MAX_WAVES];
         let node = bytemuck::bytes_of(&WaveNode::zeroed()).to_vec();
@@ -183,7 +184,8 @@ impl WaveData {
         self.most_leaves = packer.waves.iter().map(|wave| wave.leaves).max().unwrap_or(0);
         let fill = |buffer: &mut wgpu::Buffer, label, bytes: &[u8]| {
             if buffer.size() < bytes.len() as u64 {
-                *buffer = bindings::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
+                *buffer =
+                    bindings::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
             } else if !bytes.is_empty() {
                 queue.write_buffer(buffer, 0, bytes);
             }
@@ -243,7 +245,7 @@ impl Packer {
         let core = f64::from(wave.core).max(2e-4 * extent).max(1e-9);
         let bounds: Vec<f64> = match wave.shape {
             WaveShape::Sphere => Vec::new(),
-            WaveShape::Cylinder { .. } => vec![0.0, 1.0],
+            WaveShape::Cylinder { length: None } => vec![0.0, 1.0],
             _ => curve.values_of_s(0.5 * f64::from(wave.tolerance) * core),
         };
         let pieces = bounds.len().saturating_sub(1) as u32;
@@ -456,7 +458,8 @@ pub(crate) fn view_values(
         Projection::Orthographic { height: metres } => f64::from(metres.max(1e-9)) / height,
     };
     let corner = 0.5 * pixel * (height * up - width * right);
-    let (origin, corner) = if is_orthographic { (eye + corner, -back) } else { (eye, corner - back) };
+    let (origin, corner) =
+        if is_orthographic { (eye + corner, -back) } else { (eye, corner - back) };
     let (reference_points, reference_thinning) = match data.method {
         WaveMethod::Exact => (0, 0),
         WaveMethod::Simpson { points, thinning } => (points, thinning),
