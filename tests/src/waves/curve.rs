@@ -128,6 +128,12 @@ impl Curve {
 
     /// The s whose place has that x.
     pub(super) fn s_of_x(&self, x: f64) -> f64 {
+        if let WaveShape::Polyline { .. } = self.shape {
+            let last = self.points.len() - 1;
+            let i = self.points.partition_point(|p| p.x <= x).clamp(1, last) - 1;
+            let (a, b) = (self.points[i].x, self.points[i + 1].x);
+            return (i as f64 + ((x - a) / (b - a)).clamp(0.0, 1.0)) / last as f64;
+        }
         let i = self.table.partition_point(|&at| at <= x).clamp(1, STEPS);
         let (x0, x1) = (self.table[i - 1], self.table[i]);
         let (mut low, mut high) = ((i - 1) as f64 / STEPS as f64, i as f64 / STEPS as f64);
@@ -138,7 +144,6 @@ impl Curve {
                 | WaveShape::Cylinder { .. }
                 | WaveShape::Helix { .. }
                 | WaveShape::Trig { .. }
-                | WaveShape::Polyline { .. }
         ) {
             return s;
         }

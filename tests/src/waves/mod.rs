@@ -1,5 +1,6 @@
 //! Energy waves in f64, by formula and adaptive quadrature, to compare the renderer with.
 
+pub mod cases;
 mod curve;
 mod quadrature;
 

@@ -14,3 +14,4 @@ mod selectors;
 mod shaders;
 mod snapshots;
 mod transparency;
+mod waves;

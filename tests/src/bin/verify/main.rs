@@ -2,6 +2,8 @@
 //!
 //! Exits with 1 if anything is not as it must be.
 
+mod waves;
+
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -37,16 +39,17 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 4] = [
+    let parts: [Part; 5] = [
         ("edges", edges),
         ("tiles", tiles),
         ("large-picture", large_picture),
         ("large-mesh", large_mesh),
+        ("waves", waves::run),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {
         eprintln!(
-            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, or none for all"
+            "there is no part '{unknown}': name some of edges, tiles, large-picture, large-mesh, waves, or none for all"
         );
         return ExitCode::FAILURE;
     }
