@@ -14,6 +14,7 @@ pub mod pixels;
 pub mod reference;
 pub mod scenes;
 pub mod snapshots;
+pub mod waves;
 
 pub use compare::{Difference, Tolerance, difference};
 pub use eye::Eye;

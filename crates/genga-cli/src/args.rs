@@ -64,6 +64,7 @@ Workloads:
   suzuki  11,098 vertices at 1024x768 (Suzuki 2004, 5.2)
   lines   what lines cost by the method of Okuya et al. 2015 and by ours: their tables 3 and 4,
           and 300,000 triangles
+  waves   energy waves, the exact method and Abe's (2024, tables 4.4 and 4.5)
   import  a file of a million triangles, read and prepared
 
 Each frame is drawn by turns with a plain one: the same geometry, one pass, Lambert and texture,

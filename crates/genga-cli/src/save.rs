@@ -100,7 +100,8 @@ fn ending(kind: LayerKind) -> &'static str {
         | LayerKind::Ids
         | LayerKind::LineMask
         | LayerKind::LineType
-        | LayerKind::HighlightUv => "exr",
+        | LayerKind::HighlightUv
+        | LayerKind::Energy => "exr",
     }
 }
 
@@ -111,6 +112,7 @@ fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
         LayerKind::LineMask => &["set.1", "set.2", "set.3", "set.4"],
         LayerKind::LineType => &["line.type"],
         LayerKind::Depth => &["Z"],
+        LayerKind::Energy => &["Y"],
         LayerKind::Normal => &["N.X", "N.Y", "N.Z"],
         LayerKind::Ids => &["id.object", "id.material", "id.line"],
     };

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use genga::render::{Orbit, ViewCamera};
-use genga::scene::{Pose, Scene};
+use genga::scene::{Pose, Scene, Wave, WaveMotion};
 use genga::scene_file::{Picture, SceneCamera, SceneFile};
 use genga::style::Style;
 use glam::Vec3;
@@ -111,9 +111,11 @@ fn load_scene(
     for warning in &assembled.warnings {
         console.warning(&one_line(warning));
     }
-    if moves && file.models.iter().all(|model| model.clip.is_none()) {
+    let stands = file.models.iter().all(|model| model.clip.is_none())
+        && file.waves.iter().all(|wave| wave.motion == WaveMotion::default());
+    if moves && stands {
         console.warning(&format!(
-            "{}: none of its models has a 'clip', so it stands still",
+            "{}: none of its models has a 'clip' and none of its waves a 'motion', so it stands still",
             path.display()
         ));
     }
@@ -147,15 +149,25 @@ impl Source {
     /// Where everything stands, `seconds` into the clip if that is given. For a scene file the
     /// seconds are added to each model's own.
     pub(crate) fn pose(&self, seconds: Option<f32>) -> Outcome<Pose> {
+        Ok(self.moment(seconds)?.0)
+    }
+
+    /// The pose, and the waves as they are then.
+    pub(crate) fn moment(&self, seconds: Option<f32>) -> Outcome<(Pose, Vec<Wave>)> {
         match &self.animation {
-            Animation::Clip(Some(clip)) => Ok(Pose::at(&self.scene, *clip, seconds.unwrap_or(0.0))),
-            Animation::Clip(None) => Ok(Pose::rest(&self.scene)),
+            Animation::Clip(Some(clip)) => {
+                Ok((Pose::at(&self.scene, *clip, seconds.unwrap_or(0.0)), Vec::new()))
+            }
+            Animation::Clip(None) => Ok((Pose::rest(&self.scene), Vec::new())),
             Animation::File { file, models, pose } => match seconds {
-                None => Ok(pose.clone()),
+                None => Ok((pose.clone(), self.scene.waves.clone())),
                 Some(seconds) => {
                     let mut file = file.clone();
                     for model in &mut file.models {
                         model.time += seconds;
+                    }
+                    for wave in &mut file.waves {
+                        wave.time += seconds;
                     }
                     let assembled = file.assemble(|path| {
                         match models.iter().find(|(known, _)| known == path) {
@@ -163,7 +175,7 @@ impl Source {
                             None => model::load(path).map(|model| model.scene),
                         }
                     })?;
-                    Ok(assembled.pose)
+                    Ok((assembled.pose, assembled.scene.waves))
                 }
             },
         }
@@ -173,7 +185,7 @@ impl Source {
     pub(crate) fn drawn(&self, points: Vec<Vec3>) -> Outcome<Vec<Vec3>> {
         if points.is_empty() {
             return Err(Failure::Message(format!(
-                "{}: there is nothing to draw: it has no triangles",
+                "{}: there is nothing to draw: it has neither triangles nor waves",
                 self.name
             )));
         }

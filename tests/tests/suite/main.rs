@@ -17,3 +17,4 @@ mod selectors;
 mod shaders;
 mod snapshots;
 mod transparency;
+mod waves;

@@ -172,6 +172,8 @@ pub(crate) enum LayerName {
     Highlight,
     /// Where pixels lie on the drawing of a highlight (EXR)
     HighlightUv,
+    /// Energy of the waves, 32-bit float (EXR)
+    Energy,
 }
 
 impl LayerName {
@@ -187,6 +189,7 @@ impl LayerName {
             Self::LineType => LayerKind::LineType,
             Self::Highlight => LayerKind::Highlight,
             Self::HighlightUv => LayerKind::HighlightUv,
+            Self::Energy => LayerKind::Energy,
         }
     }
 }

@@ -53,7 +53,7 @@ fn contradictions_in_the_file() {
 #[test]
 fn models_without_triangles() {
     let empty = r#"{"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0}"#;
-    refuses("a.glb", &glb(empty, &[]), &["no triangles"]);
+    refuses("a.glb", &glb(empty, &[]), &["neither triangles"]);
 }
 
 #[test]

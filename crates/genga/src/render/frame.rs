@@ -56,6 +56,10 @@ pub(crate) struct Output {
     pub(crate) background: bool,
     pub(crate) paint: bool,
     pub(crate) lines: bool,
+    /// The waves.
+    pub(crate) glow: bool,
+    /// Whether the glow is dithered for 8 bits a channel.
+    pub(crate) dithered: bool,
     /// Linear light instead of sRGB-encoded values.
     pub(crate) linear: bool,
     /// Straight alpha instead of premultiplied.

@@ -46,11 +46,13 @@ pub enum LayerKind {
     /// is [−1, 1]², y up; then the distance to its outline in the same unit, negative inside. 0
     /// without a highlight, and on transparent surfaces what lies behind.
     HighlightUv,
+    /// Energy of all waves together, before any colour; see [`crate::scene::Wave`].
+    Energy,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Color,
         Self::Depth,
         Self::Normal,
@@ -60,6 +62,7 @@ impl LayerKind {
         Self::LineType,
         Self::Highlight,
         Self::HighlightUv,
+        Self::Energy,
     ];
 
     /// Name in file names and options.
@@ -75,6 +78,7 @@ impl LayerKind {
             Self::LineType => "line-type",
             Self::Highlight => "highlight",
             Self::HighlightUv => "highlight-uv",
+            Self::Energy => "energy",
         }
     }
 }
@@ -190,7 +194,7 @@ impl Renderer {
     ) -> Result<(), RenderError> {
         let reads = self.record_tile(picture, prepared, view, tile, kept)?;
         let mut reads = reads.into_iter();
-        if let Some(read) = reads.next() {
+        if let Some(Some(read)) = reads.next() {
             let bytes = read.finish(&self.device).await?;
             copy_rows(&mut picture.rgba, picture.width, &bytes, kept, 4);
         }
@@ -204,7 +208,10 @@ impl Renderer {
             paint_width: tile.size[0] * view.supersample,
         };
         for (layer, read) in picture.layers.iter_mut().zip(reads) {
-            texels.copy(layer, picture.width, &read.finish(&self.device).await?);
+            // Without waves there is no target and no energy.
+            if let Some(read) = read {
+                texels.copy(layer, picture.width, &read.finish(&self.device).await?);
+            }
         }
         Ok(())
     }
@@ -217,11 +224,13 @@ impl Renderer {
         view: &View,
         tile: Tile,
         kept: Tile,
-    ) -> Result<Vec<TextureRead>, RenderError> {
+    ) -> Result<Vec<Option<TextureRead>>, RenderError> {
         let whole = Output {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: true,
             linear: false,
             straight: true,
         };
@@ -239,7 +248,7 @@ impl Renderer {
                 self.composite(encoder, prepared, &targets, output, &mut Timer::off());
                 TextureRead::record(device, encoder, &shown.texture, all, offset, kept.size)
             };
-            let mut reads = vec![read_shown(&mut encoder)];
+            let mut reads = vec![Some(read_shown(&mut encoder))];
             self.queue.submit([encoder.finish()]);
             let projected = Projected::new(&view.camera, view.size, prepared.bounds);
             let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
@@ -258,8 +267,8 @@ impl Renderer {
             };
             for layer in &picture.layers {
                 let mut encoder = self.encoder("layer");
-                let output = Output { background: false, ..whole };
-                reads.push(match layer.kind {
+                let output = Output { background: false, glow: false, ..whole };
+                reads.push(Some(match layer.kind {
                     LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
                         let paint = layer.kind != LayerKind::Lines;
                         let output = Output { paint, lines: !paint, ..output };
@@ -289,7 +298,15 @@ impl Renderer {
                     LayerKind::LineType => {
                         read_whole(device, &mut encoder, &targets.mask.texture, all)
                     }
-                });
+                    LayerKind::Energy => {
+                        let Some(waves) = &targets.waves else {
+                            reads.push(None);
+                            continue;
+                        };
+                        let energy = &waves.energy.texture;
+                        TextureRead::record(device, &mut encoder, energy, all, offset, kept.size)
+                    }
+                }));
                 self.queue.submit([encoder.finish()]);
             }
             Ok(reads)
@@ -366,6 +383,11 @@ impl Texels {
                     .collect();
                 copy_rows(values, picture_width, &distances, self.kept, 1);
             }
+            (LayerData::F32 { values, .. }, LayerKind::Energy) => {
+                let (floats, _) = bytes.as_chunks::<4>();
+                let floats: Vec<f32> = floats.iter().map(|b| f32::from_le_bytes(*b)).collect();
+                copy_rows(values, picture_width, &floats, self.kept, 1);
+            }
             (LayerData::F32 { values, .. }, _) => {
                 let half = |a: u8, b: u8| half::f16::from_le_bytes([a, b]).to_f32();
                 let normals: Vec<f32> = self
@@ -430,7 +452,9 @@ fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
         LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
             LayerData::Rgba8(vec![0; 4 * pixels])
         }
-        LayerKind::Depth => LayerData::F32 { channels: 1, values: vec![0.0; pixels] },
+        LayerKind::Depth | LayerKind::Energy => {
+            LayerData::F32 { channels: 1, values: vec![0.0; pixels] }
+        }
         LayerKind::Normal | LayerKind::HighlightUv => {
             LayerData::F32 { channels: 3, values: vec![0.0; 3 * pixels] }
         }

@@ -1,6 +1,6 @@
 //! The frame, as one list of passes.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::{
     RenderError,
@@ -22,13 +22,14 @@ use super::{
         seams::SeamPass,
         strokes::StrokePass,
         walk::{WalkPass, lines_group},
+        waves::WavePass,
     },
     picture::MAX_PICTURE_SIDE,
-    prepare::{Prepared, lights::lights_in_view},
-    targets::{TargetSize, Targets},
+    prepare::{Prepared, lights::lights_in_view, waves},
+    targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
-use crate::scene::{Pose, Scene};
+use crate::scene::{Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
 
 /// Draws prepared scenes. Make one per device; it holds pipelines and targets, never a scene.
@@ -50,6 +51,8 @@ pub struct Renderer {
     pub(crate) paint: PaintPass,
     composite: CompositePass,
     plain: PlainPass,
+    /// Made when the first wave is drawn.
+    waves: OnceLock<WavePass>,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
     /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
@@ -63,6 +66,9 @@ pub enum Workload {
     Styled,
     /// The same geometry in one pass: texture and Lambert, no lines. The baseline.
     Plain,
+    /// The passes of the energy waves alone, over the depths that the frame before has left: only
+    /// [`FrameTimes::wall_ms`] and the waves' own passes mean something.
+    Waves,
 }
 
 /// GPU time of one pass.
@@ -113,6 +119,7 @@ impl Renderer {
                 paint: PaintPass::new(device, &layouts),
                 composite: CompositePass::new(device),
                 plain: PlainPass::new(device, &layouts),
+                waves: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
                 turn: Mutex::new(()),
@@ -144,11 +151,31 @@ impl Renderer {
             let reason = "the pose or scene is not the one that was prepared".to_owned();
             return Err(RenderError::View { reason });
         }
+        crate::scene::validate_waves(&scene.waves, scene.wave_method, scene.nodes.len())?;
         scope::checked(&self.device, || {
-            prepared.write_pose(&self.queue, scene, pose);
+            prepared.write_pose(&self.device, &self.queue, scene, pose);
             let mut encoder = self.encoder("deform");
             self.deform.run(&mut encoder, prepared, &mut Timer::off());
             self.queue.submit([encoder.finish()]);
+            Ok(())
+        })
+    }
+
+    /// Takes over waves, which may all have changed, and places them at a pose: as
+    /// [`Self::set_pose`] without the geometry.
+    ///
+    /// # Errors
+    /// A wave that cannot be drawn, or what the driver refuses.
+    pub fn set_waves(
+        &self,
+        prepared: &mut Prepared,
+        waves: &[Wave],
+        method: WaveMethod,
+        pose: &Pose,
+    ) -> Result<(), RenderError> {
+        crate::scene::validate_waves(waves, method, pose.world_from_node.len())?;
+        scope::checked(&self.device, || {
+            prepared.waves.write(&self.device, &self.queue, waves, method, pose);
             Ok(())
         })
     }
@@ -174,6 +201,8 @@ impl Renderer {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: is_8_bit(format),
             linear: is_linear(format),
             straight: false,
         };
@@ -184,14 +213,7 @@ impl Renderer {
             let mut timer = Timer::off();
             let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, &mut timer);
             let output = (target, format);
-            self.composite.run(
-                &self.device,
-                &mut encoder,
-                &prepared.frame,
-                &targets,
-                output,
-                &mut timer,
-            );
+            self.composite.run(&self.device, &mut encoder, prepared, &targets, output, &mut timer);
             self.queue.submit([encoder.finish()]);
             Ok(())
         })
@@ -210,17 +232,15 @@ impl Renderer {
         let device = &self.device;
         let projected = Projected::new(&view.camera, view.size, prepared.bounds);
         self.write_frame(prepared, view, &projected, tile, output);
-        let targets = self.targets_for(TargetSize {
-            pixels: tile.size,
-            paint_scale: view.supersample,
-            gbuffer_scale: gbuffer_scale(prepared, view),
-            line_colors: has_line_colors(&prepared.style),
-        });
+        let targets = self.targets_of(prepared, view, tile);
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
         self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
         self.detect.run(device, encoder, prepared, &targets, timer);
         self.paint.run(device, encoder, prepared, &targets, (&aim, PaintOutput::All), timer);
+        if let Some(depth) = &targets.picture_depth {
+            self.depth.run(device, encoder, &prepared.frame, &targets, depth, timer);
+        }
         match prepared.style.lines.method {
             LineMethod::Contour => self.draw_contours(encoder, prepared, &targets, timer),
             LineMethod::Reference => {
@@ -228,6 +248,7 @@ impl Renderer {
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
+        self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
         targets
     }
 
@@ -240,15 +261,39 @@ impl Renderer {
         timer: &mut Timer,
     ) {
         let device = &self.device;
-        if let Some(depth) = &targets.picture_depth {
-            self.depth.run(device, encoder, &prepared.frame, targets, depth, timer);
-        }
         self.candidates.run(device, encoder, &self.layouts, prepared, timer);
         let lines = lines_group(device, &self.layouts, prepared, targets);
         self.walk.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
         self.seams.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
         self.link.run(device, encoder, &self.sizes, prepared, targets, timer);
         self.strokes.run(device, encoder, &self.layouts, prepared, targets, timer);
+    }
+
+    fn targets_of(&self, prepared: &Prepared, view: &View, tile: Tile) -> Arc<Targets> {
+        self.targets_for(TargetSize {
+            pixels: tile.size,
+            paint_scale: view.supersample,
+            gbuffer_scale: gbuffer_scale(prepared, view),
+            line_colors: has_line_colors(&prepared.style),
+            glow_layers: prepared.waves.layers.len() as u32,
+        })
+    }
+
+    /// The energy waves, if there are any.
+    fn draw_waves(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        view: &View,
+        tile: Tile,
+        (projected, targets): (&Projected, &Targets),
+        timer: &mut Timer,
+    ) {
+        let Some(waves) = &targets.waves else { return };
+        let pass = self.waves.get_or_init(|| WavePass::new(&self.device));
+        self.write_wave_view(prepared, view, tile, waves.grid);
+        let kind = prepared.waves.exact_kind(view, projected);
+        pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 
     /// Writes the frame's uniform and the lights as this camera sees them.
@@ -268,6 +313,17 @@ impl Renderer {
         prepared.highlights.write(&self.queue, prepared, view, &lights);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
+        let glow = prepared.waves.glow_values(output);
+        self.queue.write_buffer(&prepared.waves.glow, 0, bytemuck::bytes_of(&glow));
+    }
+
+    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, grid: ListGrid) {
+        let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+        // A smaller detection has the picture's depth beside it.
+        let scale = gbuffer_scale(prepared, view);
+        let scale = if scale.is_small() { 1 } else { scale.texels };
+        let values = waves::view_values(&prepared.waves, view, &projected, tile, grid, scale);
+        self.queue.write_buffer(&prepared.waves.view, 0, bytemuck::bytes_of(&values));
     }
 
     /// Runs the last step alone, with other contents than the frame's.
@@ -279,7 +335,7 @@ impl Renderer {
         output: (&wgpu::TextureView, wgpu::TextureFormat),
         timer: &mut Timer,
     ) {
-        self.composite.run(&self.device, encoder, &prepared.frame, targets, output, timer);
+        self.composite.run(&self.device, encoder, prepared, targets, output, timer);
     }
 
     /// Draws one frame off-screen and measures it. The deformation is part of it.
@@ -333,19 +389,35 @@ impl Renderer {
             background: view.background,
             paint: true,
             lines: true,
+            glow: true,
+            dithered: true,
             linear: false,
             straight: false,
         };
         let tile = Tile { origin: [0, 0], size: view.size };
         let mut encoder = self.encoder("timed frame");
         scope::checked(device, || {
-            self.deform.run(&mut encoder, prepared, timer);
+            if workload != Workload::Waves {
+                self.deform.run(&mut encoder, prepared, timer);
+            }
             match workload {
                 Workload::Styled => {
                     let targets = self.draw_tile(&mut encoder, prepared, view, tile, output, timer);
                     let shown = super::picture::color_target(device, view.size);
                     let format = shown.texture.format();
                     self.composite(&mut encoder, prepared, &targets, (&shown.view, format), timer);
+                }
+                Workload::Waves => {
+                    let projected = Projected::new(&view.camera, view.size, prepared.bounds);
+                    let targets = self.targets_of(prepared, view, tile);
+                    self.draw_waves(
+                        &mut encoder,
+                        prepared,
+                        view,
+                        tile,
+                        (&projected, &targets),
+                        timer,
+                    );
                 }
                 Workload::Plain => {
                     let projected = Projected::new(&view.camera, view.size, prepared.bounds);
@@ -392,6 +464,15 @@ fn is_linear(format: wgpu::TextureFormat) -> bool {
             format,
             F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat | F::R16Float | F::R32Float
         )
+}
+
+/// Whether a target of that format has so few steps that a smooth glow shows bands.
+fn is_8_bit(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    matches!(
+        format,
+        F::Rgba8Unorm | F::Rgba8UnormSrgb | F::Bgra8Unorm | F::Bgra8UnormSrgb | F::Rgb10a2Unorm
+    )
 }
 
 /// Refuses impossible views before they reach the driver.

@@ -57,7 +57,8 @@ impl Scene {
     }
 
     /// Points at a pose that stick out farthest in 64 directions: enough to fit a camera closely,
-    /// however large the scene is. Empty if nothing is drawn.
+    /// however large the scene is. In a scene of waves alone, places round these. Empty if nothing
+    /// is drawn.
     ///
     /// It visits every vertex on the CPU.
     #[must_use]
@@ -79,7 +80,26 @@ impl Scene {
                 }
             }
         });
+        if farthest[0].0 == f32::NEG_INFINITY {
+            return self.wave_places(pose);
+        }
         farthest.iter().filter(|(d, _)| *d > f32::NEG_INFINITY).map(|(_, p)| (*p).into()).collect()
+    }
+
+    /// Places along the waves, and at half a radius round their ends.
+    fn wave_places(&self, pose: &Pose) -> Vec<Vec3> {
+        let waves = self.waves.iter().filter(|wave| wave.check(self.nodes.len()).is_ok());
+        waves
+            .flat_map(|wave| {
+                let mut places = wave.places(pose, 65);
+                let around = 0.5 * wave.radius.unwrap_or(1.0);
+                for end in [places[0], places[64]] {
+                    places.extend(Vec3::AXES.map(|axis| end + axis * around));
+                    places.extend(Vec3::AXES.map(|axis| end - axis * around));
+                }
+                places
+            })
+            .collect()
     }
 
     /// Calls `visit` with the place of every vertex that is drawn.

@@ -17,6 +17,9 @@ mod pose;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod wave;
+mod wave_check;
+pub(crate) mod wave_curve;
 
 pub use bounds::Aabb;
 pub use camera::{Camera, Projection};
@@ -35,6 +38,11 @@ pub use node::{Node, Skin, Transform};
 pub use pick::Hit;
 pub use pose::Pose;
 pub use validate::SceneError;
+pub(crate) use validate::validate_waves;
+pub use wave::{
+    MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder,
+    WavePlacement, WaveShape, WaveTone,
+};
 
 pub(crate) use highlight::{FIELD_SIZE, NORMAL_MAP_SIZE, ProxyShape};
 
@@ -65,6 +73,10 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Anime highlights.
     pub highlights: Vec<Highlight>,
+    /// Energy waves, at most [`MAX_WAVES`]; they may change from frame to frame.
+    pub waves: Vec<Wave>,
+    /// How they are integrated.
+    pub wave_method: WaveMethod,
 }
 
 impl Scene {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{HighlightError, Interpolation, Scene};
+use super::{HighlightError, Interpolation, MAX_WAVES, Scene, Wave, WaveMethod};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -90,6 +90,34 @@ pub enum SceneError {
         /// The vertex.
         vertex: usize,
     },
+    /// A wave cannot be drawn.
+    #[error("wave {index} '{name}' {reason}")]
+    Wave {
+        /// The wave.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The rest of the sentence.
+        reason: String,
+    },
+    /// More waves than can be drawn.
+    #[error("there are {count} waves: at most {most} can be drawn, so join or remove some")]
+    TooManyWaves {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
+    /// The numbers of the waves' reference method.
+    #[error(
+        "the waves' reference method has {points} points and the thinning {thinning}: they must be 2 to 4000 and 1 to 64"
+    )]
+    WaveMethod {
+        /// m.
+        points: u32,
+        /// n.
+        thinning: u32,
+    },
 }
 
 /// Checks an index, if there is one; `what` names who refers.
@@ -107,12 +135,38 @@ fn check(
     }
 }
 
+/// Checks waves that may hold on to `nodes` nodes.
+///
+/// # Errors
+/// The first thing that is wrong.
+pub(crate) fn validate_waves(
+    waves: &[Wave],
+    method: WaveMethod,
+    nodes: usize,
+) -> Result<(), SceneError> {
+    let (count, most) = (waves.len(), MAX_WAVES);
+    if count > most {
+        return Err(SceneError::TooManyWaves { count, most });
+    }
+    for (index, wave) in waves.iter().enumerate() {
+        let wrong = |reason| SceneError::Wave { index, name: wave.name.clone(), reason };
+        wave.check(nodes).map_err(wrong)?;
+    }
+    if let WaveMethod::Simpson { points, thinning } = method
+        && !((2..=4000).contains(&points) && (1..=64).contains(&thinning))
+    {
+        return Err(SceneError::WaveMethod { points, thinning });
+    }
+    Ok(())
+}
+
 impl Scene {
     /// Checks that every index is in range, every attribute complete and the nodes a forest.
     ///
     /// # Errors
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), SceneError> {
+        validate_waves(&self.waves, self.wave_method, self.nodes.len())?;
         for (i, node) in self.nodes.iter().enumerate() {
             let what = || format!("node {i} '{}'", node.name);
             check(&what, "mesh", node.mesh, self.meshes.len())?;

@@ -3,15 +3,17 @@ use std::path::{Path, PathBuf};
 
 use super::highlight_place::Instance;
 use super::merge::Merged;
-use super::{CameraEntry, ClipEntry, Located, ModelEntry, SceneCamera, SceneFile};
+use super::{
+    CameraEntry, ClipEntry, Located, ModelEntry, NodeNames, SceneCamera, SceneFile, WaveEntry,
+};
 use crate::FileError;
-use crate::scene::{Node, Pose, Scene};
+use crate::scene::{Node, Pose, Scene, Wave, WaveMethod, WavePlacement};
 use crate::toml_file::nearest;
 
 /// A scene file with all its models, as one posed scene.
 #[derive(Clone, Debug)]
 pub struct Assembled {
-    /// The models, each under a node of its own, and the lights.
+    /// The models, each under a node of its own, the lights and the waves.
     pub scene: Scene,
     /// Where everything stands, each model posed by its own clip and time.
     pub pose: Pose,
@@ -72,6 +74,11 @@ impl SceneFile {
             let name = entry.light.name.clone();
             merged.add_node(Node { name, transform: entry.transform, light, ..Node::default() });
         }
+        for entry in &self.waves {
+            let wave = self.placed_wave(entry, &merged.scene)?;
+            merged.scene.waves.push(wave);
+        }
+        merged.scene.wave_method = self.wave_reference.map_or(WaveMethod::Exact, WaveMethod::from);
         let camera = match &self.camera {
             None => None,
             Some(CameraEntry::Orbit(orbit)) => Some(SceneCamera::Orbit(*orbit)),
@@ -112,6 +119,34 @@ impl SceneFile {
                 }
             };
             self.error(clip, message)
+        })
+    }
+
+    /// A wave at its moment, with the nodes that it holds on to.
+    fn placed_wave(&self, entry: &WaveEntry, scene: &Scene) -> Result<Wave, FileError> {
+        let nodes = |names: &Option<Located<NodeNames>>| match names {
+            None => Ok(Vec::new()),
+            Some(at) => at.names().iter().map(|name| self.node(at, name, scene)).collect(),
+        };
+        let mut wave = entry.wave.clone();
+        let (from_nodes, to_nodes): (Vec<usize>, Vec<usize>) =
+            (nodes(&entry.from_nodes)?, nodes(&entry.to_nodes)?);
+        match &mut wave.placement {
+            WavePlacement::At { anchor, .. } => anchor.nodes = from_nodes,
+            WavePlacement::Between { from, to, .. } => {
+                from.nodes = from_nodes;
+                to.nodes = to_nodes;
+            }
+        }
+        Ok(entry.motion.at(&wave, entry.time))
+    }
+
+    fn node(&self, at: &Located<NodeNames>, name: &str, scene: &Scene) -> Result<usize, FileError> {
+        let found = scene.nodes.iter().position(|node| node.name == name);
+        found.ok_or_else(|| {
+            let names = scene.nodes.iter().map(|node| node.name.as_str());
+            let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+            self.error(at, not_there("node", name, &names))
         })
     }
 

@@ -6,7 +6,8 @@ use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
 use super::{
-    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, camera, highlight, light,
+    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, WaveEntry, WaveReference, camera,
+    highlight, light, wave,
 };
 use crate::FileError;
 use crate::style::{Style, StyleError, is_style_path};
@@ -42,6 +43,10 @@ pub struct SceneFile {
     pub lights: Vec<LightEntry>,
     /// Anime highlights.
     pub highlights: Vec<HighlightEntry>,
+    /// Energy waves.
+    pub waves: Vec<WaveEntry>,
+    /// How they are integrated, if not exactly.
+    pub wave_reference: Option<WaveReference>,
     /// The picture to make.
     pub picture: Picture,
     /// Where relative paths start.
@@ -91,6 +96,13 @@ struct Written {
     #[serde(default, deserialize_with = "highlight::highlights")]
     #[schemars(with = "Vec<HighlightEntry>", length(max = 1000))]
     highlight: Vec<HighlightEntry>,
+    /// Energy waves.
+    #[serde(default, deserialize_with = "waves")]
+    #[schemars(with = "Vec<wave::Written>", length(max = 240))]
+    wave: Vec<WaveEntry>,
+    /// Abe's own method for the waves instead of the exact one, for comparison.
+    #[serde(default)]
+    wave_reference: Option<WaveReference>,
     /// The picture to make.
     #[serde(default)]
     picture: Picture,
@@ -98,6 +110,10 @@ struct Written {
 
 fn lights<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LightEntry>, D::Error> {
     // For the place of each light's own errors.
+    list_with(deserializer, |_, _| Ok(()))
+}
+
+fn waves<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<WaveEntry>, D::Error> {
     list_with(deserializer, |_, _| Ok(()))
 }
 
@@ -139,6 +155,8 @@ impl SceneFile {
             camera: written.camera,
             lights: written.light,
             highlights: written.highlight,
+            waves: written.wave,
+            wave_reference: written.wave_reference,
             picture: written.picture,
             directory,
             path: path.map(Path::to_owned),

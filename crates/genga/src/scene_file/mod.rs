@@ -35,6 +35,7 @@ mod merge;
 mod model;
 #[cfg(test)]
 mod tests;
+mod wave;
 
 pub use crate::toml_file::Located;
 pub use assemble::Assembled;
@@ -45,3 +46,4 @@ pub use highlight::{
 };
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};
+pub use wave::{NodeNames, WaveEntry, WaveReference};

@@ -6,6 +6,7 @@ mod contours;
 mod motion;
 mod outlines;
 mod scales;
+mod waves;
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -42,7 +43,7 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 10] = [
+    let parts: [Part; 11] = [
         ("contours", contours::contours),
         ("outlines", outlines::outlines),
         ("scales", scales::scales),
@@ -53,6 +54,7 @@ fn main() -> ExitCode {
         ("large-mesh", large_mesh),
         ("highlights", highlights),
         ("highlight-cost", highlight_cost),
+        ("waves", waves::run),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {

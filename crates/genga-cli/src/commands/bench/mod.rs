@@ -5,6 +5,7 @@ mod import;
 mod lines;
 mod report;
 mod sample;
+mod waves;
 mod workload;
 
 use std::time::Duration;
@@ -44,6 +45,10 @@ pub(crate) fn run(args: &BenchArgs, console: &Console) -> Outcome {
                     none => none.insert(lines::report(args)?),
                 };
                 lines.push(cost);
+            }
+            Job::Waves => {
+                report.waves = Some(waves::measure(runs, args.size, &graphics, console)?);
+                step(runs);
             }
             Job::Import { triangles } => {
                 report.import.push(import::measure(*triangles, runs, &graphics, &mut step)?);

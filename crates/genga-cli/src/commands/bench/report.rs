@@ -4,6 +4,7 @@ use super::frames::FrameReport;
 use super::import::ImportReport;
 use super::lines::LinesReport;
 use super::sample::Summary;
+use super::waves::WaveReport;
 use crate::commands::adapters::AdapterInfo;
 use crate::text::{one_line, table, thousands};
 
@@ -18,6 +19,7 @@ pub(super) struct Report {
     pub(super) frames: Vec<FrameReport>,
     pub(super) lines: Option<LinesReport>,
     pub(super) import: Vec<ImportReport>,
+    pub(super) waves: Option<WaveReport>,
 }
 
 impl Report {
@@ -31,6 +33,7 @@ impl Report {
             frames: Vec::new(),
             lines: None,
             import: Vec::new(),
+            waves: None,
         }
     }
 
@@ -58,6 +61,10 @@ impl Report {
         for import in &self.import {
             text.push('\n');
             text.push_str(&import_text(import));
+        }
+        if let Some(waves) = &self.waves {
+            text.push('\n');
+            text.push_str(&waves.text());
         }
         text
     }

@@ -13,7 +13,7 @@ use crate::text::{nearest, one_line};
 use crate::{model, style_choice};
 
 /// Workloads with names; `--help` describes them.
-const NAMED: [&str; 3] = ["suzuki", "lines", "import"];
+const NAMED: [&str; 4] = ["suzuki", "lines", "waves", "import"];
 
 /// Triangles of the `import` workload.
 const IMPORT_TRIANGLES: usize = 1_000_000;
@@ -24,6 +24,8 @@ pub(super) enum Job {
     Frames(Box<Case>),
     /// One place in the tables of what lines cost.
     Lines(lines::Cell),
+    /// Energy waves, in their own pictures.
+    Waves,
     /// Reading a file of so many triangles.
     Import { triangles: usize },
 }
@@ -51,6 +53,7 @@ pub(super) fn jobs(args: &BenchArgs, console: &Console) -> Outcome<Vec<Job>> {
                 jobs.push(case(args, "suzuki", scene, [1024, 768])?);
             }
             "lines" => jobs.extend(lines::cells(args).into_iter().map(Job::Lines)),
+            "waves" => jobs.push(Job::Waves),
             "import" => jobs.push(Job::Import { triangles: IMPORT_TRIANGLES }),
             file => jobs.push(model_case(args, file, console)?),
         }

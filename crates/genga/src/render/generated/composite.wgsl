@@ -13,6 +13,12 @@ var coverage: texture_2d<f32>;
 var mask: texture_2d<u32>;
 
 @group(0) @binding(4)
+var glow_layers: texture_2d_array<f32>;
+
+@group(0) @binding(5)
+var<uniform> glow: Glow;
+
+@group(0) @binding(6)
 var line_colors: texture_2d<f32>;
 
 const FRAME_BACKGROUND: u32 = 4u;
@@ -26,6 +32,12 @@ const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
 const FRAME_SHOW_LINES: u32 = 32u;
 
 const FRAME_SHOW_PAINT: u32 = 16u;
+
+const GLOW_LINES_THROUGH: u32 = 1u;
+
+const GLOW_OVER: u32 = 2u;
+
+const GLOW_UNDER: u32 = 0u;
 
 const LINE_CREASE: u32 = 2u;
 
@@ -44,6 +56,11 @@ const METHOD_REFERENCE: u32 = 2u;
 const SET_COLOR_BASE: u32 = 2u;
 
 const SET_COLOR_LIGHT: u32 = 4u;
+
+struct Added {
+    own: vec3f,
+    other: vec3f
+}
 
 struct Detect {
     depth: f32,
@@ -86,6 +103,14 @@ struct Frame {
     detect: Detect
 }
 
+struct Glow {
+    layers: array<vec4u, 6>,
+    layer_count: u32,
+    dithered: u32,
+    reserved_0: u32,
+    reserved_1: u32
+}
+
 struct LineSet {
     color: vec4f,
     lit_color: vec4f,
@@ -109,6 +134,12 @@ fn display_from_linear(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.0031308));
 }
 
+fn dither(pixel: vec2f) -> vec3f {
+    let shifted = pixel.x + vec3f(0.0, 5.588, 11.176);
+    let x = fract(52.9829189 * fract(0.06711056 * shifted + 0.00583715 * pixel.y));
+    return (x - 0.5) / 255.0;
+}
+
 fn encoded(color: vec4f) -> vec4f {
     if (color.a <= 0.0) {
         return vec4f(0.0);
@@ -127,6 +158,21 @@ fn encoded(color: vec4f) -> vec4f {
         straight = display_from_linear(straight);
     }
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
+}
+
+fn glow_of(order: u32, pixel: vec2i, is_linear: bool) -> Added {
+    var added = Added(vec3f(0.0), vec3f(0.0));
+    if (!has_glow) {
+        return added;
+    }
+    for (var i = 0u; i < glow.layer_count; i++) {
+        let layer = textureLoad(glow_layers, pixel, i, 0).rgb;
+        let is_wanted = glow.layers[i].x == order;
+        let is_own = (glow.layers[i].y != 0u) == is_linear;
+        added.own += select(vec3f(0.0), layer, is_wanted && is_own);
+        added.other += select(vec3f(0.0), layer, is_wanted && !is_own);
+    }
+    return added;
 }
 
 fn line_color(index: u32, pixel: vec2i) -> vec4f {
@@ -201,6 +247,24 @@ fn paint_at(pixel: vec2i) -> vec4f {
     return sum / f32(scale * scale);
 }
 
+fn with_glow(added: Added, is_linear: bool, color: vec4f) -> vec4f {
+    if (!has_glow) {
+        return color;
+    }
+    var rgb = color.rgb + added.own;
+    if (glow_mixes && any(added.other > vec3f(0.0))) {
+        if (is_linear) {
+            rgb = linear_from_display(display_from_linear(rgb) + added.other);
+        }
+        else {
+            rgb = display_from_linear(linear_from_display(rgb) + added.other);
+        }
+    }
+    let alpha = max(color.a, max(rgb.r, max(rgb.g, rgb.b)));
+    let glows = any(added.own + added.other > vec3f(0.0));
+    return vec4f(rgb, select(color.a, min(alpha, 1.0), glows));
+}
+
 @fragment
 fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let pixel = vec2i(position.xy);
@@ -210,9 +274,15 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         let background = mix(frame.background_top, frame.background_bottom, height);
         color = vec4f(background.rgb * background.a, background.a);
     }
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let under = glow_of(GLOW_UNDER, pixel, is_linear);
+    let through = glow_of(GLOW_LINES_THROUGH, pixel, is_linear);
+    let above = glow_of(GLOW_OVER, pixel, is_linear);
+    color = with_glow(under, is_linear, color);
     if ((frame.flags & FRAME_SHOW_PAINT) != 0u) {
         color = over(paint_at(pixel), color);
     }
+    color = with_glow(through, is_linear, color);
     if ((frame.flags & FRAME_SHOW_LINES) != 0u) {
         var ink = vec4f(0.0);
         if (frame.line_method == METHOD_CONTOUR || frame.line_method == METHOD_REFERENCE) {
@@ -229,7 +299,14 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
             ink = ink.yzwx;
         }
     }
-    return encoded(color);
+    color = with_glow(above, is_linear, color);
+    let result = encoded(color);
+    if (has_glow && glow.dithered != 0u) {
+        let sum = under.own + under.other + through.own + through.other + above.own + above.other;
+        let noise = dither(position.xy + frame.tile_origin);
+        return vec4f(result.rgb + select(vec3f(0.0), noise, any(sum > vec3f(0.0))), result.a);
+    }
+    return result;
 }
 
 @vertex
@@ -237,3 +314,7 @@ fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec
     let corner = vec2f(f32(index & 1u), f32(index >> 1u));
     return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
 }
+
+override glow_mixes: bool = true;
+
+override has_glow: bool = true;

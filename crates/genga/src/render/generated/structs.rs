@@ -3,12 +3,18 @@
 pub(crate) const COUNT_LINES: u32 = 2u32;
 pub(crate) const COUNT_PIECES: u32 = 0u32;
 pub(crate) const COUNT_SEAMS: u32 = 1u32;
+pub(crate) const CURVE_BEZIER: u32 = 3u32;
+pub(crate) const CURVE_B_SPLINE: u32 = 4u32;
 pub(crate) const CURVE_COUNT: u32 = 5u32;
 pub(crate) const CURVE_CURVATURE: u32 = 1u32;
 pub(crate) const CURVE_DEPTH: u32 = 0u32;
+pub(crate) const CURVE_HELIX: u32 = 1u32;
 pub(crate) const CURVE_LIGHT: u32 = 3u32;
+pub(crate) const CURVE_LINE: u32 = 0u32;
+pub(crate) const CURVE_POLYLINE: u32 = 5u32;
 pub(crate) const CURVE_SCREEN_CURVATURE: u32 = 2u32;
 pub(crate) const CURVE_TAPER: u32 = 4u32;
+pub(crate) const CURVE_TRIG: u32 = 2u32;
 pub(crate) const DRAW_ALPHA_BLEND: u32 = 4u32;
 pub(crate) const DRAW_ALPHA_MASK: u32 = 2u32;
 pub(crate) const DRAW_DOUBLE_SIDED: u32 = 16u32;
@@ -356,6 +362,40 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Frame, detect) == 576,
     "offset of Frame.detect does not match WGSL"
+);
+pub(crate) const GLOW_LINES_THROUGH: u32 = 1u32;
+pub(crate) const GLOW_OVER: u32 = 2u32;
+pub(crate) const GLOW_UNDER: u32 = 0u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Glow {
+    pub(crate) layers: [glam::UVec4; 6],
+    pub(crate) layer_count: u32,
+    pub(crate) dithered: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Glow > () == 112, "size of Glow does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, layers) == 0, "offset of Glow.layers does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, layer_count) == 96,
+    "offset of Glow.layer_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, dithered) == 100,
+    "offset of Glow.dithered does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, reserved_0) == 104,
+    "offset of Glow.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, reserved_1) == 108,
+    "offset of Glow.reserved_1 does not match WGSL"
 );
 pub(crate) const HIGHLIGHT_IN_LIGHT: u32 = 4u32;
 pub(crate) const HIGHLIGHT_IN_SHADOW: u32 = 8u32;
@@ -1175,6 +1215,366 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Tone, reserved_0) == 28,
     "offset of Tone.reserved_0 does not match WGSL"
+);
+pub(crate) const WAVE_ENDS: u32 = 1u32;
+pub(crate) const WAVE_EVEN: u32 = 4u32;
+pub(crate) const WAVE_OCCLUDED: u32 = 2u32;
+pub(crate) const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Wave {
+    pub(crate) axis_x: glam::Vec4,
+    pub(crate) axis_y: glam::Vec4,
+    pub(crate) axis_z: glam::Vec4,
+    pub(crate) origin: glam::Vec4,
+    pub(crate) bound: glam::Vec4,
+    pub(crate) color: glam::Vec4,
+    pub(crate) tail: glam::Vec4,
+    pub(crate) head: glam::Vec4,
+    pub(crate) swell: glam::Vec2,
+    pub(crate) alpha: f32,
+    pub(crate) core: f32,
+    pub(crate) radius: f32,
+    pub(crate) attenuation: f32,
+    pub(crate) flags: u32,
+    pub(crate) layer: u32,
+    pub(crate) node_first: u32,
+    pub(crate) leaves: u32,
+    pub(crate) bounds_first: u32,
+    pub(crate) bound_count: u32,
+    pub(crate) ramp_first: u32,
+    pub(crate) ramp_count: u32,
+    pub(crate) profile_first: u32,
+    pub(crate) profile_count: u32,
+    pub(crate) tolerance: f32,
+    pub(crate) cylinder: f32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) curve: WaveCurve,
+}
+const _: () = assert!(
+    std::mem::size_of::< Wave > () == 272, "size of Wave does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, axis_x) == 0, "offset of Wave.axis_x does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, axis_y) == 16, "offset of Wave.axis_y does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, axis_z) == 32, "offset of Wave.axis_z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, origin) == 48, "offset of Wave.origin does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, bound) == 64, "offset of Wave.bound does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, color) == 80, "offset of Wave.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, tail) == 96, "offset of Wave.tail does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, head) == 112, "offset of Wave.head does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, swell) == 128, "offset of Wave.swell does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, alpha) == 136, "offset of Wave.alpha does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, core) == 140, "offset of Wave.core does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, radius) == 144,
+    "offset of Wave.radius does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, attenuation) == 148,
+    "offset of Wave.attenuation does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, flags) == 152, "offset of Wave.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, layer) == 156, "offset of Wave.layer does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, node_first) == 160,
+    "offset of Wave.node_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, leaves) == 164,
+    "offset of Wave.leaves does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, bounds_first) == 168,
+    "offset of Wave.bounds_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, bound_count) == 172,
+    "offset of Wave.bound_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, ramp_first) == 176,
+    "offset of Wave.ramp_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, ramp_count) == 180,
+    "offset of Wave.ramp_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, profile_first) == 184,
+    "offset of Wave.profile_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, profile_count) == 188,
+    "offset of Wave.profile_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, tolerance) == 192,
+    "offset of Wave.tolerance does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, cylinder) == 196,
+    "offset of Wave.cylinder does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, reserved_0) == 200,
+    "offset of Wave.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, reserved_1) == 204,
+    "offset of Wave.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Wave, curve) == 208, "offset of Wave.curve does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct WaveCurve {
+    pub(crate) kind: u32,
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+    pub(crate) order: u32,
+    pub(crate) knots_first: u32,
+    pub(crate) count_z: u32,
+    pub(crate) noise_octaves: u32,
+    pub(crate) noise_seed: u32,
+    pub(crate) length: f32,
+    pub(crate) radius: f32,
+    pub(crate) angle: f32,
+    pub(crate) phase: f32,
+    pub(crate) noise_amplitude: f32,
+    pub(crate) noise_frequency: f32,
+    pub(crate) noise_phase: f32,
+    pub(crate) reserved_0: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< WaveCurve > () == 64, "size of WaveCurve does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, kind) == 0,
+    "offset of WaveCurve.kind does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, first) == 4,
+    "offset of WaveCurve.first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, count) == 8,
+    "offset of WaveCurve.count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, order) == 12,
+    "offset of WaveCurve.order does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, knots_first) == 16,
+    "offset of WaveCurve.knots_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, count_z) == 20,
+    "offset of WaveCurve.count_z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, noise_octaves) == 24,
+    "offset of WaveCurve.noise_octaves does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, noise_seed) == 28,
+    "offset of WaveCurve.noise_seed does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, length) == 32,
+    "offset of WaveCurve.length does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, radius) == 36,
+    "offset of WaveCurve.radius does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, angle) == 40,
+    "offset of WaveCurve.angle does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, phase) == 44,
+    "offset of WaveCurve.phase does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, noise_amplitude) == 48,
+    "offset of WaveCurve.noise_amplitude does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, noise_frequency) == 52,
+    "offset of WaveCurve.noise_frequency does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, noise_phase) == 56,
+    "offset of WaveCurve.noise_phase does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveCurve, reserved_0) == 60,
+    "offset of WaveCurve.reserved_0 does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct WaveNode {
+    pub(crate) x: glam::Vec4,
+    pub(crate) y: glam::Vec4,
+    pub(crate) z: glam::Vec4,
+    pub(crate) more: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< WaveNode > () == 64, "size of WaveNode does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveNode, x) == 0, "offset of WaveNode.x does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveNode, y) == 16, "offset of WaveNode.y does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveNode, z) == 32, "offset of WaveNode.z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveNode, more) == 48,
+    "offset of WaveNode.more does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct WaveView {
+    pub(crate) origin: glam::Vec4,
+    pub(crate) corner: glam::Vec4,
+    pub(crate) right: glam::Vec4,
+    pub(crate) down: glam::Vec4,
+    pub(crate) tile_origin: glam::UVec2,
+    pub(crate) tile_size: glam::UVec2,
+    pub(crate) depth_range: glam::Vec2,
+    pub(crate) pixel_footprint: f32,
+    pub(crate) reserved_2: u32,
+    pub(crate) square: u32,
+    pub(crate) squares_across: u32,
+    pub(crate) square_count: u32,
+    pub(crate) capacity: u32,
+    pub(crate) wave_count: u32,
+    pub(crate) layer_count: u32,
+    pub(crate) gbuffer_scale: u32,
+    pub(crate) flags: u32,
+    pub(crate) reference_points: u32,
+    pub(crate) reference_thinning: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< WaveView > () == 144, "size of WaveView does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, origin) == 0,
+    "offset of WaveView.origin does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, corner) == 16,
+    "offset of WaveView.corner does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, right) == 32,
+    "offset of WaveView.right does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, down) == 48,
+    "offset of WaveView.down does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, tile_origin) == 64,
+    "offset of WaveView.tile_origin does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, tile_size) == 72,
+    "offset of WaveView.tile_size does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, depth_range) == 80,
+    "offset of WaveView.depth_range does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, pixel_footprint) == 88,
+    "offset of WaveView.pixel_footprint does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, reserved_2) == 92,
+    "offset of WaveView.reserved_2 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, square) == 96,
+    "offset of WaveView.square does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, squares_across) == 100,
+    "offset of WaveView.squares_across does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, square_count) == 104,
+    "offset of WaveView.square_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, capacity) == 108,
+    "offset of WaveView.capacity does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, wave_count) == 112,
+    "offset of WaveView.wave_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, layer_count) == 116,
+    "offset of WaveView.layer_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, gbuffer_scale) == 120,
+    "offset of WaveView.gbuffer_scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, flags) == 124,
+    "offset of WaveView.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, reference_points) == 128,
+    "offset of WaveView.reference_points does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, reference_thinning) == 132,
+    "offset of WaveView.reference_thinning does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, reserved_0) == 136,
+    "offset of WaveView.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveView, reserved_1) == 140,
+    "offset of WaveView.reserved_1 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

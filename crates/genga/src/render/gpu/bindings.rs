@@ -13,6 +13,8 @@ pub(crate) enum Binding {
     StorageWrite,
     /// A float texture that is only loaded.
     Float,
+    /// A float texture with layers that is only loaded.
+    FloatLayers,
     /// A float texture that is filtered.
     Filtered,
     /// Layers of float textures that are filtered.
@@ -25,6 +27,8 @@ pub(crate) enum Binding {
     DepthSamples,
     /// A storage texture that is written.
     Written(wgpu::TextureFormat),
+    /// A storage texture with layers that is written.
+    WrittenLayers(wgpu::TextureFormat),
     /// A filtering sampler.
     Sampler,
 }
@@ -49,6 +53,11 @@ impl Binding {
                 buffer(wgpu::BufferBindingType::Storage { read_only: false }, false)
             }
             Self::Float => texture(wgpu::TextureSampleType::Float { filterable: false }),
+            Self::FloatLayers => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
             Self::Filtered => texture(wgpu::TextureSampleType::Float { filterable: true }),
             Self::FilteredLayers => wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Float { filterable: true },
@@ -62,14 +71,19 @@ impl Binding {
                 view_dimension: wgpu::TextureViewDimension::D2,
                 multisampled: true,
             },
-            Self::Written(format) => wgpu::BindingType::StorageTexture {
-                access: wgpu::StorageTextureAccess::WriteOnly,
-                format,
-                view_dimension: wgpu::TextureViewDimension::D2,
-            },
+            Self::Written(format) => written(format, wgpu::TextureViewDimension::D2),
+            Self::WrittenLayers(format) => written(format, wgpu::TextureViewDimension::D2Array),
             Self::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
         }
     }
+}
+
+fn written(
+    format: wgpu::TextureFormat,
+    view_dimension: wgpu::TextureViewDimension,
+) -> wgpu::BindingType {
+    let access = wgpu::StorageTextureAccess::WriteOnly;
+    wgpu::BindingType::StorageTexture { access, format, view_dimension }
 }
 
 /// A layout from (binding number, kind), all visible to `stages`.

@@ -10,18 +10,29 @@ use crate::render::gpu::{
     bindings::{Binding as B, group, layout, pipeline_layout},
     timing::Timer,
 };
-use crate::render::targets::Targets;
+use crate::render::{
+    prepare::{Prepared, waves::GlowKind},
+    targets::Targets,
+};
 
 pub(crate) struct CompositePass {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: Mutex<HashMap<wgpu::TextureFormat, Arc<wgpu::RenderPipeline>>>,
+    made: Mutex<HashMap<(wgpu::TextureFormat, GlowKind), Arc<wgpu::RenderPipeline>>>,
 }
 
 impl CompositePass {
     pub(crate) fn new(device: &wgpu::Device) -> Self {
-        let bindings = [(0, B::Uniform), (1, B::Float), (2, B::Float), (3, B::Uint), (4, B::Float)];
+        let bindings = [
+            (0, B::Uniform),
+            (1, B::Float),
+            (2, B::Float),
+            (3, B::Uint),
+            (4, B::FloatLayers),
+            (5, B::Uniform),
+            (6, B::Float),
+        ];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
         let module = shader(device, "composite", include_str!("../generated/composite.wgsl"));
@@ -32,7 +43,7 @@ impl CompositePass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &wgpu::Buffer,
+        prepared: &Prepared,
         targets: &Targets,
         (output, format): (&wgpu::TextureView, wgpu::TextureFormat),
         timer: &mut Timer,
@@ -44,14 +55,16 @@ impl CompositePass {
             "composite",
             &self.layout,
             &[
-                (0, frame.as_entire_binding()),
+                (0, prepared.frame.as_entire_binding()),
                 (1, R::TextureView(&targets.paint.view)),
                 (2, R::TextureView(&targets.coverage.view)),
                 (3, R::TextureView(&targets.mask.view)),
-                (4, R::TextureView(&colors.view)),
+                (4, R::TextureView(&targets.glow.view)),
+                (5, prepared.waves.glow.as_entire_binding()),
+                (6, R::TextureView(&colors.view)),
             ],
         );
-        let pipeline = self.pipeline(device, format);
+        let pipeline = self.pipeline(device, format, prepared.waves.glow_kind(&prepared.style));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("composite"),
             color_attachments: &[cleared(output, None)],
@@ -67,7 +80,10 @@ impl CompositePass {
         &self,
         device: &wgpu::Device,
         format: wgpu::TextureFormat,
+        glow: GlowKind,
     ) -> Arc<wgpu::RenderPipeline> {
+        let number = |on: bool| f64::from(u8::from(on));
+        let constants = [("has_glow", number(glow.shows)), ("glow_mixes", number(glow.mixes))];
         let make = || {
             Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("composite"),
@@ -84,7 +100,10 @@ impl CompositePass {
                 fragment: Some(wgpu::FragmentState {
                     module: &self.module,
                     entry_point: Some("composite_fragment"),
-                    compilation_options: Default::default(),
+                    compilation_options: wgpu::PipelineCompilationOptions {
+                        constants: &constants,
+                        ..Default::default()
+                    },
                     targets: &[Some(format.into())],
                 }),
                 multiview_mask: None,
@@ -92,6 +111,6 @@ impl CompositePass {
             }))
         };
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(made.entry(format).or_insert_with(make))
+        Arc::clone(made.entry((format, glow)).or_insert_with(make))
     }
 }

@@ -14,3 +14,4 @@ pub(crate) mod seams;
 pub(crate) mod strokes;
 pub(crate) mod surface;
 pub(crate) mod walk;
+pub(crate) mod waves;

@@ -8,6 +8,7 @@ pub(crate) mod pages;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
+pub(crate) mod waves;
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -21,6 +22,7 @@ use self::{
     pages::{PAGE_BYTES, Place},
     strokes::StrokeData,
     textures::Textures,
+    waves::WaveData,
 };
 use super::{
     RenderError,
@@ -46,6 +48,7 @@ pub struct Prepared {
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
+    pub(crate) waves: WaveData,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     /// Nodes that depth curves count from: number, and place in the present pose.
@@ -130,8 +133,15 @@ impl Prepared {
                 == [nodes; 3]
     }
 
-    /// Brings the scene to a pose: matrices, weights, lights. The caller then runs `deform`.
-    pub(crate) fn write_pose(&mut self, queue: &wgpu::Queue, scene: &Scene, pose: &Pose) {
+    /// Brings the scene to a pose: matrices, weights, lights, waves. The caller then runs `deform`.
+    pub(crate) fn write_pose(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        pose: &Pose,
+    ) {
+        self.waves.write(device, queue, &scene.waves, scene.wave_method, pose);
         let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
         let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
         for deform in &self.deform.nodes {
@@ -489,6 +499,7 @@ impl<'a> Builder<'a> {
             deform,
             strokes,
             highlights,
+            waves: WaveData::new(device, queue),
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,
