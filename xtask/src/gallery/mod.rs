@@ -1,5 +1,7 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod waves;
+
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -22,6 +24,8 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
 pub(crate) fn gallery(root: &Path) -> Result<()> {
     let folder = root.join("assets/gallery");
     let pictures = draw(root, &folder, "480x270")?;
+    let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
+    waves::draw(root, &genga)?;
     println!("\n{} pictures are in {}", pictures.len(), folder.display());
     Ok(())
 }
