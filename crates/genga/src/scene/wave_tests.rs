@@ -60,7 +60,7 @@ fn odd_but_right_curves_are_taken() {
     for shape in [
         WaveShape::Polyline { points: line(10_000) },
         WaveShape::Polyline { points: twice.clone() },
-        WaveShape::BSpline { points: twice.clone(), order: 3, knots: Vec::new() },
+        WaveShape::BSpline { points: twice, order: 3, knots: Vec::new() },
         WaveShape::BSpline { points: line(10_000), order: 16, knots: Vec::new() },
         WaveShape::Bezier { points: line(101) },
     ] {
