@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use genga::render::{LayerKind, Renderer, View};
 use genga::scene::{
-    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene,
+    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene, Wave,
+    WaveBlend, WaveMethod, WaveOrder, WaveShape,
 };
 use genga::style::Globs;
 use genga::{shapes, style::Style};
@@ -53,6 +54,13 @@ fn scene_of_all_kinds() -> Scene {
     }
     let mut scene = scene.build();
     scene.highlights = highlights_of_all_kinds();
+    scene.waves = [
+        (WaveOrder::Under, WaveBlend::Linear),
+        (WaveOrder::LinesThrough, WaveBlend::Display),
+        (WaveOrder::Over, WaveBlend::Linear),
+    ]
+    .map(|(order, blend)| Wave { order, blend, attenuation: 2.0, ..Wave::default() })
+    .to_vec();
     scene
 }
 
@@ -135,6 +143,35 @@ fn every_pipeline_is_valid_with_default_limits() {
         }
     }
     assert_eq!(*faults.lock().expect("nothing panicked"), Vec::<String>::new());
+}
+
+#[test]
+fn the_waves_reference_is_valid_for_every_curve() {
+    let (device, queue) = noop_device();
+    let renderer = Renderer::new(&device, &queue).expect("the renderer's own pipelines are valid");
+    let points =
+        [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0], [3.0, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let points = points.to_vec();
+    let view = perspective_view([48, 32], 40.0, 8.0);
+    for shape in [
+        WaveShape::Sphere,
+        WaveShape::Capsule { length: 1.0 },
+        WaveShape::Helix { length: 1.0, radius: 0.2, turns: 2.0, phase: 0.0 },
+        WaveShape::Trig { length: 1.0, turns: 1.0, y: vec![[0.1, 0.2]], z: Vec::new() },
+        WaveShape::Bezier { points: points.clone() },
+        WaveShape::BSpline { points: points.clone(), order: 3, knots: Vec::new() },
+        WaveShape::Polyline { points },
+    ] {
+        for thinning in [1, 2] {
+            let mut scene = scene_of_all_kinds();
+            scene.waves = vec![Wave { shape: shape.clone(), ..Wave::default() }];
+            scene.wave_method = WaveMethod::Simpson { points: 10, thinning };
+            let prepared = renderer.prepare(&scene, &Style::default()).expect("it is valid");
+            let mut progress = |_, _| {};
+            let picture = renderer.picture(&prepared, &view, &[], &mut progress);
+            pollster::block_on(picture).unwrap_or_else(|e| panic!("{shape:?}: {e}"));
+        }
+    }
 }
 
 #[test]

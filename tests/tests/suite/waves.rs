@@ -29,7 +29,7 @@ fn every_shape_is_within_its_tolerance_from_every_side() {
                 let errors = errors(
                     &wave,
                     &view,
-                    &energies(&scene_of(&[wave.clone()]), &view),
+                    &energies(&scene_of(std::slice::from_ref(&wave)), &view),
                     200,
                     &no_end,
                 );
@@ -44,8 +44,13 @@ fn glows_without_an_end_are_exact_too() {
     for (name, shape) in wave_shapes() {
         let wave = Wave { radius: None, reach: 40.0, ..wave(shape) };
         let [(_, view), ..] = views([64, 64]);
-        let errors =
-            errors(&wave, &view, &energies(&scene_of(&[wave.clone()]), &view), 100, &no_end);
+        let errors = errors(
+            &wave,
+            &view,
+            &energies(&scene_of(std::slice::from_ref(&wave)), &view),
+            100,
+            &no_end,
+        );
         assert!(errors.largest <= 0.01, "{name}: {errors:?}");
     }
 }
@@ -56,14 +61,24 @@ fn growth_and_attenuation_keep_to_the_model() {
     for (name, shape) in wave_shapes() {
         for head in [0.0, 0.25, 0.5, 1.0] {
             let wave = Wave { growth: [0.0, head], ..wave(shape.clone()) };
-            let errors =
-                errors(&wave, &view, &energies(&scene_of(&[wave.clone()]), &view), 80, &no_end);
+            let errors = errors(
+                &wave,
+                &view,
+                &energies(&scene_of(std::slice::from_ref(&wave)), &view),
+                80,
+                &no_end,
+            );
             assert!(errors.largest <= 0.01, "{name}, k = {head}: {errors:?}");
         }
         for (j, bound) in [(0.5, 0.02), (1.0, 0.01), (2.0, 0.02)] {
             let wave = Wave { attenuation: j, reach: 8.0, ..wave(shape.clone()) };
-            let errors =
-                errors(&wave, &view, &energies(&scene_of(&[wave.clone()]), &view), 80, &no_end);
+            let errors = errors(
+                &wave,
+                &view,
+                &energies(&scene_of(std::slice::from_ref(&wave)), &view),
+                80,
+                &no_end,
+            );
             assert!(errors.largest <= bound, "{name}, j = {j}: {errors:?}");
         }
     }
@@ -78,8 +93,13 @@ fn profile_and_swelling_ends_keep_to_the_model() {
         }
         let profile = vec![[0.0, 0.2], [0.3, 1.0], [1.0, 0.5]];
         let wave = Wave { profile, swell: [0.1, 0.4], ..wave(shape) };
-        let errors =
-            errors(&wave, &view, &energies(&scene_of(&[wave.clone()]), &view), 150, &no_end);
+        let errors = errors(
+            &wave,
+            &view,
+            &energies(&scene_of(std::slice::from_ref(&wave)), &view),
+            150,
+            &no_end,
+        );
         assert!(errors.largest <= 0.01, "{name}: {errors:?}");
     }
 }
@@ -182,7 +202,7 @@ fn no_ray_gives_a_number_that_is_none() {
                 let mut camera = look(eye * scale, at * scale);
                 camera.near = 0.1 * scale;
                 let view = View { supersample: 1, ..View::new(camera, [45, 45]) };
-                let energies = energies(&scene_of(&[wave.clone()]), &view);
+                let energies = energies(&scene_of(std::slice::from_ref(&wave)), &view);
                 let bad = energies.iter().find(|e| !e.is_finite() || **e < -1e-4);
                 assert_eq!(bad, None, "{name}, {scale}, {eye}");
             }
@@ -266,7 +286,7 @@ fn lists_leave_no_edges_in_the_picture() {
     for (name, shape) in wave_shapes() {
         let wave = Wave { radius: Some(1.5), color: Vec4::ONE, ..wave(shape) };
         let [(_, view), ..] = views([128, 128]);
-        let coarse = energies(&scene_of(&[wave.clone()]), &view);
+        let coarse = energies(&scene_of(std::slice::from_ref(&wave)), &view);
         let fine = energies(&scene_of(&[Wave { tolerance: 1e-4, ..wave }]), &view);
         let off: Vec<f32> = coarse.iter().zip(&fine).map(|(a, b)| a - b).collect();
         let peak = fine.iter().copied().fold(0.0, f32::max);
@@ -390,10 +410,10 @@ fn the_reference_method_comes_near_the_same_energy() {
         }
         // A wide core, which 1000 points resolve.
         let wave = Wave { core: 0.2, ..wave(shape) };
-        let exact = energies(&scene_of(&[wave.clone()]), &view);
+        let exact = energies(&scene_of(std::slice::from_ref(&wave)), &view);
         let peak = exact.iter().copied().fold(0.0, f32::max);
         for thinning in [1, 2] {
-            let mut scene = scene_of(&[wave.clone()]);
+            let mut scene = scene_of(std::slice::from_ref(&wave));
             scene.wave_method = WaveMethod::Simpson { points: 1000, thinning };
             for (a, b) in exact.iter().zip(energies(&scene, &view)) {
                 assert!((a - b).abs() <= 0.01 * a.max(peak / 20.0), "{name}: {a} and {b}");
@@ -409,8 +429,13 @@ fn an_orthographic_camera_sees_the_same_model() {
         let mut view = View { supersample: 1, ..ortho_view([64, 64], 5.0) };
         view.camera.world_from_camera.translation.x = 2.0;
         assert!(matches!(view.camera.projection, Projection::Orthographic { .. }));
-        let errors =
-            errors(&wave, &view, &energies(&scene_of(&[wave.clone()]), &view), 120, &no_end);
+        let errors = errors(
+            &wave,
+            &view,
+            &energies(&scene_of(std::slice::from_ref(&wave)), &view),
+            120,
+            &no_end,
+        );
         assert!(errors.largest <= 0.01, "{name}: {errors:?}");
     }
 }

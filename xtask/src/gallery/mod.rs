@@ -2,6 +2,7 @@
 
 mod highlights;
 mod lines;
+mod waves;
 
 use std::fmt::Write as _;
 use std::fs;
@@ -29,6 +30,8 @@ pub(crate) fn gallery(root: &Path, only_highlights: bool) -> Result<()> {
     }
     let pictures = draw(root, &folder, "480x270")?;
     lines::draw(root, &folder)?;
+    let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
+    waves::draw(root, &genga)?;
     println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
     highlights::sheets(root, &folder)
 }

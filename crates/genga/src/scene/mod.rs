@@ -20,6 +20,8 @@ mod validate;
 mod wave;
 mod wave_check;
 pub(crate) mod wave_curve;
+#[cfg(test)]
+mod wave_tests;
 
 pub use bounds::Aabb;
 pub use camera::{Camera, Projection};

@@ -139,7 +139,7 @@ impl Wave {
                 length(*l)?;
                 turning(*turns)?;
                 let mut terms = y.iter().chain(z).flatten();
-                if terms.any(|t| !(t.abs() <= LARGEST)) || y.len().max(z.len()) > 64 {
+                if !terms.all(|t| t.abs() <= LARGEST) || y.len().max(z.len()) > 64 {
                     return Err("has over 64 terms on an axis, or one that is no number".to_owned());
                 }
                 Ok(())
@@ -186,7 +186,7 @@ impl Wave {
 }
 
 fn in_range(what: &str, points: &[Vec3]) -> Result<(), String> {
-    match points.iter().find(|p| !(p.abs().max_element() <= LARGEST)) {
+    match points.iter().find(|p| p.is_nan() || p.abs().max_element() > LARGEST) {
         Some(point) => {
             Err(format!("has the {what} {point}: its numbers must be −{LARGEST} to {LARGEST}"))
         }
@@ -209,7 +209,9 @@ fn check_knots(points: usize, order: usize, knots: &[f32]) -> Result<(), String>
             knots.len()
         ));
     }
-    if let Some(i) = knots.windows(2).position(|pair| !(pair[0] <= pair[1])) {
+    if let Some(i) =
+        knots.windows(2).position(|pair| pair[0].is_nan() || pair[1].is_nan() || pair[0] > pair[1])
+    {
         let (a, b) = (knots[i], knots[i + 1]);
         return Err(format!("has the knots {a} and {b} one after the other: they must not fall"));
     }

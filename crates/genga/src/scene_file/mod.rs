@@ -36,6 +36,8 @@ mod model;
 #[cfg(test)]
 mod tests;
 mod wave;
+#[cfg(test)]
+mod wave_tests;
 
 pub use crate::toml_file::Located;
 pub use assemble::Assembled;

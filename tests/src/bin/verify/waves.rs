@@ -17,7 +17,7 @@ pub(super) fn run(report: &mut Report) {
             let wave =
                 Wave { shape: shape.clone(), radius: Some(0.8), tolerance, ..Wave::default() };
             for (side, view) in views([480, 480]) {
-                let energies = energies(&scene_of(&[wave.clone()]), &view);
+                let energies = energies(&scene_of(std::slice::from_ref(&wave)), &view);
                 let errors = errors(&wave, &view, &energies, RAYS, &no_end);
                 println!(
                     "  {name}, {side}, {tolerance}: {:.4}, {:.5}, {:.4}",
@@ -77,7 +77,7 @@ fn steady(report: &mut Report) {
             let camera = look(Vec3::new(x, 1.0, 6.0), Vec3::new(2.0, 0.0, 0.0));
             let view = View { supersample: 1, ..View::new(camera, [200, 200]) };
             let wave = Wave { shape: shape.clone(), radius: Some(0.8), ..Wave::default() };
-            let coarse = energies(&scene_of(&[wave.clone()]), &view);
+            let coarse = energies(&scene_of(std::slice::from_ref(&wave)), &view);
             let fine = energies(&scene_of(&[Wave { tolerance: 1e-4, ..wave }]), &view);
             let peak = fine.iter().copied().fold(0.0, f32::max);
             let off: Vec<f32> = coarse.iter().zip(&fine).map(|(a, b)| (a - b) / peak).collect();

@@ -91,8 +91,11 @@ fn spline(count: usize) -> WaveShape {
         // Greville's abscissae: means of three knots in a row.
         let knot = |k: usize| ((i + k) as f32 - 3.0).clamp(0.0, spans);
         let x = (knot(1) + knot(2) + knot(3)) / (3.0 * spans) * 4.0;
-        let t = 13.0 * x / 4.0;
-        Vec3::new(x, 0.7 * (1.3 * t).sin(), 0.6 * (0.9 * t).cos() - 0.6 * (1.0 - x / 4.0))
+        // It begins and ends on the axis, which is then its direction.
+        let (t, end, part) = (3.25 * x, 13.0_f32, x / 4.0);
+        let y = (1.3 * t).sin() - part * (1.3 * end).sin();
+        let z = (0.9 * t).cos() - 1.0 - part * ((0.9 * end).cos() - 1.0);
+        Vec3::new(x, 0.7 * y, 0.6 * z)
     });
     WaveShape::BSpline { points: points.collect(), order: 4, knots: Vec::new() }
 }

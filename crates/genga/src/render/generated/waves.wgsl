@@ -27,7 +27,7 @@ var energy_target: texture_storage_2d<r32float, write>;
 @group(1) @binding(4)
 var<storage, read> squares: array<u32>;
 
-const MANY_CUTS: f32 = 4.0;
+const MANY_CUTS: f32 = 5.0;
 
 const MAX_CUTS: f32 = 32.0;
 
@@ -212,7 +212,7 @@ fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f) -> f32 {
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(3.0 * sag / (wave.tolerance * distance));
+    return sqrt(6.0 * sag / (wave.tolerance * distance));
 }
 
 fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {

@@ -21,7 +21,7 @@ var<storage, read_write> full_squares: Squares;
 @group(1) @binding(3)
 var depth: texture_2d<f32>;
 
-const MANY_CUTS: f32 = 4.0;
+const MANY_CUTS: f32 = 5.0;
 
 const NODE_FITS: u32 = 1u;
 
@@ -157,7 +157,7 @@ fn core_at(wave: RayWave, distance: f32) -> f32 {
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     let sag = 0.25 * bend * length * length;
-    return sqrt(3.0 * sag / (wave.tolerance * distance));
+    return sqrt(6.0 * sag / (wave.tolerance * distance));
 }
 
 fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {

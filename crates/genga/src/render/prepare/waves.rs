@@ -69,7 +69,7 @@ impl WaveData {
         let eye = Vec3::from(view.camera.world_from_camera.translation);
         let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
             let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
-            !(core >= 0.5 * projected.pixel_footprint * distance)
+            core < 0.5 * projected.pixel_footprint * distance
         };
         ExactKind { fades: self.fades, core_grows: self.spheres.iter().any(grows) }
     }
