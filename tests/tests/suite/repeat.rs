@@ -63,7 +63,12 @@ fn assert_same(whole: &Picture, parts: &Picture, what: &str) {
             }
             (LayerData::F32 { values: a, channels }, LayerData::F32 { values: b, .. }) => {
                 for (i, (a, b)) in a.iter().zip(b).enumerate() {
-                    let allowed = if *channels == 3 { 1.0 / 1024.0 } else { 1e-5 * a };
+                    let allowed = match channels {
+                        3 => 1.0 / 1024.0,
+                        // Coverage, of 8 bits.
+                        4 => 1.001 / 255.0,
+                        _ => 1e-5 * a,
+                    };
                     let near = a == b || (a - b).abs() <= allowed;
                     assert!(near, "{what}: {a} and {b} at pixel {}", i / channels);
                 }

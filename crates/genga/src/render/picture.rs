@@ -481,7 +481,8 @@ fn tiles(size: [u32; 2], limit: u32, apron: u32) -> Vec<(Tile, Tile)> {
         if length <= limit {
             return vec![(0, length, 0, length)];
         }
-        let step = limit.saturating_sub(2 * apron + 1).max(limit / 4).max(1);
+        // The beginning is rounded down by up to five pixels.
+        let step = limit.saturating_sub(2 * apron + 5).max(limit / 4).max(1);
         (0..length)
             .step_by(step as usize)
             .map(|start| {
@@ -515,7 +516,7 @@ mod tests {
         for (size, limit, apron) in [([300, 70], 64, 6), ([64, 64], 64, 6), ([1, 500], 100, 40)] {
             let mut covered = vec![0_u8; (size[0] * size[1]) as usize];
             for (drawn, kept) in tiles(size, limit, apron) {
-                assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron + 1));
+                assert!(drawn.size[0] <= limit.max(limit / 4 + 2 * apron + 5));
                 for (axis, side) in size.into_iter().enumerate() {
                     let low = kept.origin[axis].saturating_sub(apron);
                     assert!(drawn.origin[axis] <= low && drawn.origin[axis] % 6 == 0);

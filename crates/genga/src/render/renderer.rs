@@ -263,8 +263,9 @@ impl Renderer {
         let device = &self.device;
         self.candidates.run(device, encoder, &self.layouts, prepared, timer);
         let lines = lines_group(device, &self.layouts, prepared, targets);
-        self.walk.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
-        self.seams.run(device, encoder, &self.sizes, prepared, &lines, targets, timer);
+        let with = (&self.sizes, &lines);
+        self.walk.run(device, encoder, with, prepared, targets, timer);
+        self.seams.run(device, encoder, with, prepared, targets, timer);
         self.link.run(device, encoder, &self.sizes, prepared, targets, timer);
         self.strokes.run(device, encoder, &self.layouts, prepared, targets, timer);
     }

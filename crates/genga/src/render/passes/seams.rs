@@ -29,9 +29,8 @@ impl SeamPass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        sizes: &SizePass,
+        (sizes, lines): (&SizePass, &wgpu::BindGroup),
         prepared: &Prepared,
-        lines: &wgpu::BindGroup,
         targets: &Targets,
         timer: &mut Timer,
     ) {

@@ -23,9 +23,8 @@ impl WalkPass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        sizes: &SizePass,
+        (sizes, lines): (&SizePass, &wgpu::BindGroup),
         prepared: &Prepared,
-        lines: &wgpu::BindGroup,
         targets: &Targets,
         timer: &mut Timer,
     ) {

@@ -91,6 +91,15 @@ impl Whole<'_> {
         self.first_vertex[primitive] + self.primitives[primitive].indices[own as usize]
     }
 
+    /// Unit normal of a side's triangle; 0 if it has no area.
+    fn face(&self, half: Half) -> Vec3 {
+        let primitive = self.primitive_of_triangle(half / 3);
+        let of = &self.primitives[primitive];
+        let first = (half / 3 * 3 - 3 * self.first_triangle[primitive]) as usize;
+        let p = [0, 1, 2].map(|i| of.positions[of.indices[first + i] as usize]);
+        (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero()
+    }
+
     fn attribute<T: Copy>(&self, vertex: u32, of: impl Fn(&Primitive) -> &[T]) -> Option<T> {
         let primitive = self.first_vertex.partition_point(|&first| first <= vertex) - 1;
         let own = vertex - self.first_vertex[primitive];
@@ -219,8 +228,10 @@ fn line_edge(
         }
     };
     edge.is_uv_seam = ends.into_iter().any(torn);
-    let is_flat = edge.is_flat.contains(&true);
-    (edge.is_hard || is_flat || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
+    // Coplanar faces turn away together.
+    let folds =
+        edge.is_flat.contains(&true) && whole.face(left).dot(whole.face(right)) < SAME_NORMAL;
+    (edge.is_hard || folds || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
 }
 
 /// For each vertex the first one at the same place with the same bones: split normals, UV seams
@@ -421,10 +432,11 @@ mod tests {
     }
 
     #[test]
-    fn a_cube_with_split_normals_has_12_hard_edges() {
+    fn a_cube_with_corners_of_its_own_on_every_face_has_12_edges() {
+        // The diagonals of its faces are none: coplanar faces turn away together.
         let edges = topology(split_cube()).edges;
         assert_eq!(edges.len(), 12);
-        assert!(edges.iter().all(|e| e.right.is_some() && e.is_hard));
+        assert!(edges.iter().all(|e| e.right.is_some() && e.is_flat == [true; 2]));
     }
 
     #[test]
