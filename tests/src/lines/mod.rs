@@ -1,7 +1,7 @@
 //! Where lines must be, in f64, and figures of how drawn ones lie on them.
 //!
-//! [`expected`] says which pieces of a mesh are lines in a view, [`cuts`] where objects run into
-//! each other, [`places`] which parts of them can be seen, [`figures`] what is drawn of them.
+//! [`mod@expected`] says which pieces of a mesh are lines in a view, [`cuts`] where objects run into
+//! each other, [`mod@places`] which parts of them can be seen, [`figures`] what is drawn of them.
 
 pub mod broad;
 pub mod capsules;
