@@ -123,10 +123,34 @@ fn line_width(weights: &[f64]) -> f64 {
     1.0 - 0.5 * weights[HEAD] - 0.35 * on_hands
 }
 
+/// The surface's normals; where those of a tiny triangle all point inwards, which happens in narrow
+/// folds, the means of the triangles at its corners instead.
+fn outward_normals(part: &Part) -> Vec<DVec3> {
+    let (triangles, _) = part.indices.as_chunks::<3>();
+    let face = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| part.positions[v as usize]);
+        (b - a).cross(c - a)
+    };
+    let mut means = vec![DVec3::ZERO; part.positions.len()];
+    for triangle in triangles {
+        triangle.iter().for_each(|&v| means[v as usize] += face(triangle));
+    }
+    let mut normals = part.normals.clone();
+    for triangle in triangles {
+        if triangle.iter().all(|&v| part.normals[v as usize].dot(face(triangle)) < 0.0) {
+            triangle.iter().for_each(|&v| normals[v as usize] = means[v as usize]);
+            if triangle.iter().all(|&v| means[v as usize].dot(face(triangle)) < 0.0) {
+                normals[triangle[0] as usize] = face(triangle);
+            }
+        }
+    }
+    normals
+}
+
 fn surface(part: &Part) -> Surface {
     Surface {
         positions: part.positions.iter().map(|p| p.as_vec3()).collect(),
-        normals: part.normals.iter().map(|n| n.as_vec3().normalize_or_zero()).collect(),
+        normals: outward_normals(part).iter().map(|n| n.as_vec3().normalize_or_zero()).collect(),
         uvs: part.uvs.iter().map(|uv| uv.as_vec2()).collect(),
         indices: part.indices.clone(),
         ..Surface::default()
