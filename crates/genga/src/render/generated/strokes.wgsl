@@ -43,6 +43,8 @@ const CURVE_TAPER: u32 = 4u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const FRAME_SMALL_DETECTION: u32 = 512u;
+
 const ID_OBJECT: u32 = 16777215u;
 
 const ID_THROUGH_SHIFT: u32 = 28u;
@@ -353,7 +355,14 @@ fn ink_at(in: Stroke) -> Ink {
             covered = behind(p_px, line_depth) > 8.0;
         }
         else {
-            covered = is_covered(p_px, spine, line_depth, in.owner);
+            let shown = ids_at(p_px);
+            let is_other = ((shown ^ in.owner) & ID_OBJECT) != 0u && (shown & ID_OBJECT) != 0u;
+            if (is_other && (frame.flags & FRAME_SMALL_DETECTION) == 0u) {
+                covered = is_under_other(p_px, mix(a, b, place.t), line_depth, shown);
+            }
+            else {
+                covered = is_covered(p_px, spine, line_depth, in.owner);
+            }
         }
         if (covered) {
             let through = ids_at(p_px) >> ID_THROUGH_SHIFT;
@@ -395,6 +404,39 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32) -> bool
         }
     }
     return false;
+}
+
+fn is_under_other(p_px: vec2f, spine_px: vec2f, line_depth: f32, other: u32) -> bool {
+    var here = behind(p_px, line_depth);
+    if (here <= ON_SURFACE) {
+        return false;
+    }
+    let way = spine_px - p_px;
+    let length_px = length(way);
+    let unit = way / max(length_px, 1e-6);
+    var fall = 0.0;
+    if (((ids_at(p_px - unit) ^ other) & ID_OBJECT) == 0u) {
+        fall = max(behind(p_px - unit, line_depth) - here, 0.0);
+    }
+    var at = 0.0;
+    let steps = u32(clamp(floor(length_px), 0.0, 48.0));
+    for (var i = 1u; i <= steps; i++) {
+        let next_px = p_px + unit * f32(i);
+        if (((ids_at(next_px) ^ other) & ID_OBJECT) != 0u) {
+            break;
+        }
+        let next = behind(next_px, line_depth);
+        if (here - next > STEP + 3.0 * fall) {
+            break;
+        }
+        fall = max(here - next, 0.0);
+        here = next;
+        at = f32(i);
+        if (here <= ON_SURFACE) {
+            return false;
+        }
+    }
+    return here - fall * (length_px - at) > ON_SURFACE;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {

@@ -132,7 +132,8 @@ struct Draw {
 struct Found {
     sets: u32,
     width: f32,
-    covered: f32
+    covered: f32,
+    is_line: bool
 }
 
 struct Frame {
@@ -445,7 +446,7 @@ fn lit(p: vec3f, normal: vec3f) -> f32 {
 }
 
 fn look_up(t: f32) -> Found {
-    let nothing = Found(0u, 0.0, 0.0);
+    let nothing = Found(0u, 0.0, 0.0, false);
     let p_px = mix(line.a, line.b, t);
     if (any(p_px < vec2f(0.0)) || any(p_px > frame.picture_size)) {
         return nothing;
@@ -503,12 +504,13 @@ fn look_up(t: f32) -> Found {
             sets |= 1u << i;
         }
     }
+    let is_line = sets != 0u;
     sets &= own_sets & 15u;
     if (sets == 0u) {
-        return Found(0u, 0.0, covered);
+        return Found(0u, 0.0, covered, is_line);
     }
     let width = strength * look_width(p_px, covered > 0.0);
-    return Found(select(0u, sets, width > 0.0), width, covered);
+    return Found(select(0u, sets, width > 0.0), width, covered, is_line);
 }
 
 fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
@@ -655,7 +657,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     let end_t = f32(end) / lookups;
     var last = 0u;
     var start = start_t;
-    var state = Found(0u, 0.0, 0.0);
+    var state = Found(0u, 0.0, 0.0, false);
     var next_state = state;
     var started_covered = 0.0;
     var width_sum = 0.0;
@@ -690,7 +692,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             }
         }
         else {
-            if (found.sets != 0u && found.covered == 0.0) {
+            if (found.is_line && found.covered == 0.0) {
                 mark(mix(line.a, line.b, t));
             }
             next_state = found;
