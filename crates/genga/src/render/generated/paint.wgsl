@@ -399,7 +399,7 @@ fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f 
 
 fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
     var left = 1.0;
-    if (HAS_MASK) {
+    if (HAS_TONE) {
         let flags = highlights.items[i].flags;
         if ((flags & HIGHLIGHT_IN_LIGHT) != 0u) {
             left = lit;
@@ -407,6 +407,8 @@ fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
         if ((flags & HIGHLIGHT_IN_SHADOW) != 0u) {
             left = 1.0 - lit;
         }
+    }
+    if (HAS_MASK) {
         let layer = highlights.items[i].mask;
         let drawn = textureSampleLevel(masks, repeated, uv, max(layer, 0), 0.0).x;
         left *= select(1.0, drawn, layer >= 0);
@@ -752,7 +754,7 @@ fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) ->
         color = vec4f(0.0);
     }
     var lit = 1.0;
-    if (HAS_MASK) {
+    if (HAS_TONE) {
         lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
     }
     let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
@@ -829,6 +831,8 @@ override HAS_MASK: bool = false;
 override HAS_MATRIX: bool = false;
 
 override HAS_NORMAL_MAP: bool = false;
+
+override HAS_TONE: bool = false;
 
 override HIGHLIGHTS: u32 = 0u;
 

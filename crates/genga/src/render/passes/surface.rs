@@ -40,6 +40,7 @@ pub(crate) struct HighlightVariant {
     pub(crate) blends_normals: bool,
     pub(crate) is_reshaped: bool,
     pub(crate) replaces: bool,
+    pub(crate) has_tone: bool,
     pub(crate) has_mask: bool,
     /// An `OUTPUT_*` of `paint.wesl`.
     pub(crate) output: u32,
@@ -130,6 +131,7 @@ impl SurfacePipelines {
             ("BLENDS_NORMALS", yes(highlights.blends_normals)),
             ("IS_RESHAPED", yes(highlights.is_reshaped)),
             ("REPLACES", yes(highlights.replaces)),
+            ("HAS_TONE", yes(highlights.has_tone)),
             ("HAS_MASK", yes(highlights.has_mask)),
             ("OUTPUT", f64::from(highlights.output)),
         ];

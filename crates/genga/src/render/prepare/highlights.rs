@@ -237,7 +237,8 @@ impl Highlights {
             variant.has_normal_map |= layers.normal_map >= 0;
             variant.blends_normals |= highlight.gamma < 1.0;
             variant.replaces |= highlight.blend == HighlightBlend::Replace;
-            variant.has_mask |= layers.mask >= 0 || highlight.tone != HighlightTone::All;
+            variant.has_tone |= highlight.tone != HighlightTone::All;
+            variant.has_mask |= layers.mask >= 0;
         }
         variant
     }
