@@ -469,7 +469,7 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     let turn = sqrt(max(2.0 - 2.0 * min(min(turns.x, turns.y), turns.z), 0.0));
     let along = b.p - a.p;
     let depth = max(max(depth_across(c0.p - a.p, along, to_eye), depth_across(c1.p - a.p, along, to_eye)), depth_across(c2.p - a.p, along, to_eye));
-    kind.own_depth = select(depth, 0.0, faces);
+    kind.own_depth = select(1.5 * depth, -depth, faces);
     kind.own_width = 0.5 * depth * turn;
     list_line(End(a.p, a.n, a.rest, a.width, a.curvature, key_of(a.p)), End(b.p, b.n, b.rest, b.width, b.curvature, key_of(b.p)), kind);
 }

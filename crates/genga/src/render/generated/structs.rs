@@ -926,7 +926,7 @@ pub(crate) struct Piece {
     pub(crate) order: u32,
     pub(crate) link_a: u32,
     pub(crate) link_b: u32,
-    pub(crate) reserved: u32,
+    pub(crate) own_step: f32,
 }
 const _: () = assert!(
     std::mem::size_of::< Piece > () == 104, "size of Piece does not match WGSL"
@@ -1019,8 +1019,8 @@ const _: () = assert!(
     "offset of Piece.link_b does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Piece, reserved) == 100,
-    "offset of Piece.reserved does not match WGSL"
+    std::mem::offset_of!(Piece, own_step) == 100,
+    "offset of Piece.own_step does not match WGSL"
 );
 pub(crate) const RULE_BASE_COLOR: u32 = 1u32;
 pub(crate) const RULE_ID_TEXTURE: u32 = 4u32;

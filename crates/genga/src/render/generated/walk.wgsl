@@ -85,6 +85,7 @@ struct Course {
     outward: vec2f,
     reach: f32,
     own_depth: f32,
+    own_step: f32,
     types: u32,
     known: u32,
     crease: f32,
@@ -262,7 +263,7 @@ struct Piece {
     order: u32,
     link_a: u32,
     link_b: u32,
-    reserved: u32
+    own_step: f32
 }
 
 fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u, key_b: vec2u) -> u32 {
@@ -274,7 +275,7 @@ fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u,
     let s1 = in_space(t1);
     let rest_0 = mix(line.rest_a, line.rest_b, s0);
     let rest_1 = mix(line.rest_a, line.rest_b, s1);
-    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, 0u);
+    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, line.own_step);
     if (before != 0u) {
         pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
     }
@@ -588,11 +589,12 @@ fn set_course(index: u32) {
     line.known = lines[index].types >> 8u;
     line.crease = lines[index].crease;
     line.order = lines[index].order;
-    line.own_depth = lines[index].own_depth;
+    line.own_depth = max(lines[index].own_depth, 0.0);
     var metres = frame.pixel_footprint;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
         metres /= max(line.depth_a, 1e-30);
     }
+    line.own_step = abs(lines[index].own_depth) / metres;
     line.reach = clamp(1.5 + lines[index].own_width / metres, 1.5, 40.0);
     if (line.types != line.known) {
         let inner = vec3f(lines[index].inner_x, lines[index].inner_y, lines[index].inner_z);
