@@ -72,7 +72,8 @@ impl PaintPass {
         let [opaque, blended] = sorted_items(prepared, aim.eye);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
-            Variant { highlights, ..Variant::of(item, samples) }
+            let shadows = prepared.shadows.any();
+            Variant { highlights, shadows, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);

@@ -25,6 +25,8 @@ pub(crate) struct Variant {
     pub(crate) samples: u32,
     /// With highlights on top; `None` for a pipeline that knows nothing of them.
     pub(crate) highlights: Option<HighlightVariant>,
+    /// With cast shadows.
+    pub(crate) shadows: bool,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -49,7 +51,14 @@ impl Variant {
     /// As the material of a draw asks.
     pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false, samples, highlights: None }
+        Self {
+            mirrored: item.mirrored,
+            cull,
+            blend: false,
+            samples,
+            highlights: None,
+            shadows: false,
+        }
     }
 }
 
@@ -120,6 +129,7 @@ impl SurfacePipelines {
         };
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
+        let shadows = [("SHADOWS", 1.0)];
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
             ("ON_PANORAMA", yes(highlights.on_panorama)),
@@ -133,7 +143,9 @@ impl SurfacePipelines {
             ("HAS_MASK", yes(highlights.has_mask)),
             ("OUTPUT", f64::from(highlights.output)),
         ];
-        let constants = if variant.highlights.is_some() { &constants[..] } else { &[] };
+        let mut constants: Vec<(&str, f64)> =
+            if variant.highlights.is_some() { constants.to_vec() } else { Vec::new() };
+        constants.extend(variant.shadows.then_some(shadows).into_iter().flatten());
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(layout),
@@ -179,7 +191,7 @@ impl SurfacePipelines {
                 module: &self.module,
                 entry_point: Some(fragment_entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants,
+                    constants: &constants,
                     ..Default::default()
                 },
                 targets: &targets,
