@@ -60,7 +60,7 @@ var clamped: sampler;
 @group(2) @binding(5)
 var repeated: sampler;
 
-const CLEARANCE: f32 = 2.0;
+const CLEARANCE: f32 = 4.0;
 
 const DEPTH_OFFSET: f32 = 1.0;
 
@@ -118,11 +118,17 @@ const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
-const NORMAL_OFFSET: f32 = 1.0;
+const OUTPUT_BASE: u32 = 3u;
 
 const OUTPUT_COORDINATES: u32 = 2u;
 
 const OUTPUT_HIGHLIGHT: u32 = 1u;
+
+const OUTPUT_PICTURE: u32 = 0u;
+
+const OUTPUT_SHADOW: u32 = 5u;
+
+const OUTPUT_TONE: u32 = 4u;
 
 const RULE_BASE_COLOR: u32 = 1u;
 
@@ -164,6 +170,7 @@ struct Footing {
     at: vec2f,
     bound: f32,
     slope: vec2f,
+    softness: f32,
     px: vec2f,
     py: vec2f,
     is_inside: bool
@@ -433,14 +440,11 @@ fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
 fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
     let face = receiver.face;
     let is_perspective = shadow_maps[map].is_perspective > 0.5;
-    let w = (shadow_maps[map].clip_from_world * vec4f(receiver.p_in_world, 1.0)).w;
-    let texel_m = shadow_maps[map].texel_m * select(1.0, max(w, 0.0), is_perspective);
-    let cosine = saturate(dot(face, to_light));
+    let p = receiver.p_in_world;
+    let clip = shadow_maps[map].clip_from_world * vec4f(p, 1.0);
+    let texel_m = shadow_maps[map].texel_m * select(1.0, max(clip.w, 0.0), is_perspective);
     let grazing = 1.0 - smoothstep(0.0, GRAZING, dot(face, to_light));
     let clearance = min(receiver.clearance * CLEARANCE, MAX_CLEARANCE * texel_m) * grazing;
-    let sine = sqrt(1.0 - cosine * cosine);
-    let p = receiver.p_in_world + face * (NORMAL_OFFSET * sine * texel_m);
-    let clip = shadow_maps[map].clip_from_world * vec4f(p, 1.0);
     let ndc = clip.xyz / max(clip.w, 1e-12);
     var depth_per_m = shadow_maps[map].depth_scale;
     if (is_perspective) {
@@ -451,12 +455,14 @@ fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
     let c = select(min(plane.z, -1e-12), max(plane.z, 1e-12), plane.z >= 0.0);
     let most = MAX_SLOPE * texel_m * depth_per_m;
     let slope = clamp(plane.xy / c * vec2f(-2.0, 2.0) / texels, vec2f(-most), vec2f(most));
-    let bound = ndc.z + depth_per_m * (DEPTH_OFFSET * texel_m + clearance);
+    let cosine = max(dot(face, to_light), 0.0);
+    let tangent = min(sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 0.001), MAX_SLOPE);
+    let bound = ndc.z + depth_per_m * (DEPTH_OFFSET * (1.0 + tangent) * texel_m + clearance);
     let at = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * texels;
     let px = place_in_map(map, p + receiver.px) - at;
     let py = place_in_map(map, p + receiver.py) - at;
     let is_inside = clip.w > 0.0 && all(abs(ndc.xy) < vec2f(1.0)) && ndc.z < 1.0;
-    return Footing(at, bound, slope, px, py, is_inside);
+    return Footing(at, bound, slope, depth_per_m * texel_m, px, py, is_inside);
 }
 
 fn footprint(frame: Frame, distance: f32) -> f32 {
@@ -540,14 +546,14 @@ fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
     if (!footing.is_inside) {
         return 1.0;
     }
-    let is_wide = dot(footing.px, footing.px) >= dot(footing.py, footing.py);
+    let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
     let short = select(footing.px, footing.py, is_wide);
     let count = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
     var sum = 0.0;
     for (var i = 0.5; i < count; i += 1.0) {
         let step = long * (i / count - 0.5);
-        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope);
+        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
         let width = length(vec2f(dot(lit.yz, long) / count, dot(lit.yz, short)));
         sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
     }
@@ -581,7 +587,7 @@ fn linear_from_display(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.04045));
 }
 
-fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f) -> vec3f {
+fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f, softness: f32) -> vec3f {
     let corner = floor(at - 0.5) + 1.0;
     let f = at + 0.5 - corner;
     let wx = spline_weights(f.x);
@@ -602,7 +608,7 @@ fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f) -> vec3f {
         let ux = select(sx.xyyx, sx.zwwz, right);
         let uy = select(sy.yyxx, sy.wwzz, below);
         let bounds = bound + select(dx.xyyx, dx.zwwz, right) + select(dy.yyxx, dy.wwzz, below);
-        let free = select(vec4f(0.0), vec4f(1.0), d <= bounds);
+        let free = saturate(1.0 - (d - bounds) / max(softness, 1e-30));
         lit += vec3f(dot(free, vx * vy), dot(free, ux * vy), dot(free, vx * uy));
     }
     return lit;
@@ -864,8 +870,11 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (linear_blend) {
         base = linear_from_display(base);
     }
+    if (OUTPUT == OUTPUT_TONE) {
+        base = vec3f(1.0);
+    }
     var color = base;
-    if ((draw_flags & DRAW_UNLIT) == 0u) {
+    if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
         if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
             color = base * ramp_picture(looks[look_index].ramp_row, t_lit);
             if (SHADOWS) {
@@ -882,7 +891,10 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             }
         }
     }
-    if (any(material.emissive > vec3f(0.0))) {
+    if (OUTPUT == OUTPUT_SHADOW) {
+        color = vec3f(reach);
+    }
+    if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
     }
     var alpha = 1.0;
@@ -1027,6 +1039,9 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let shaded = shade(in, front_facing);
+    if (OUTPUT != OUTPUT_PICTURE) {
+        return shaded.color;
+    }
     return with_rim(in, shaded, shaded.color);
 }
 

@@ -27,6 +27,8 @@ pub(crate) struct Variant {
     pub(crate) highlights: Option<HighlightVariant>,
     /// With cast shadows.
     pub(crate) shadows: bool,
+    /// An `OUTPUT_*` of `paint.wesl`.
+    pub(crate) output: u32,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -43,8 +45,6 @@ pub(crate) struct HighlightVariant {
     pub(crate) is_reshaped: bool,
     pub(crate) replaces: bool,
     pub(crate) has_mask: bool,
-    /// An `OUTPUT_*` of `paint.wesl`.
-    pub(crate) output: u32,
 }
 
 impl Variant {
@@ -58,6 +58,7 @@ impl Variant {
             samples,
             highlights: None,
             shadows: false,
+            output: 0,
         }
     }
 }
@@ -129,7 +130,10 @@ impl SurfacePipelines {
         };
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
-        let shadows = [("SHADOWS", 1.0)];
+        let shading = [
+            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("OUTPUT", f64::from(variant.output)),
+        ];
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
             ("ON_PANORAMA", yes(highlights.on_panorama)),
@@ -141,11 +145,11 @@ impl SurfacePipelines {
             ("IS_RESHAPED", yes(highlights.is_reshaped)),
             ("REPLACES", yes(highlights.replaces)),
             ("HAS_MASK", yes(highlights.has_mask)),
-            ("OUTPUT", f64::from(highlights.output)),
         ];
         let mut constants: Vec<(&str, f64)> =
             if variant.highlights.is_some() { constants.to_vec() } else { Vec::new() };
-        constants.extend(variant.shadows.then_some(shadows).into_iter().flatten());
+        // Only the paint pass has these.
+        constants.extend(shading.into_iter().filter(|(_, value)| *value != 0.0));
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(layout),
