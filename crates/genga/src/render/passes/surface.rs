@@ -25,6 +25,10 @@ pub(crate) struct Variant {
     pub(crate) samples: u32,
     /// With highlights on top; `None` for a pipeline that knows nothing of them.
     pub(crate) highlights: Option<HighlightVariant>,
+    /// With cast shadows.
+    pub(crate) shadows: bool,
+    /// An `OUTPUT_*` of `paint.wesl`.
+    pub(crate) output: u32,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -42,15 +46,21 @@ pub(crate) struct HighlightVariant {
     pub(crate) replaces: bool,
     pub(crate) has_tone: bool,
     pub(crate) has_mask: bool,
-    /// An `OUTPUT_*` of `paint.wesl`.
-    pub(crate) output: u32,
 }
 
 impl Variant {
     /// As the material of a draw asks.
     pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false, samples, highlights: None }
+        Self {
+            mirrored: item.mirrored,
+            cull,
+            blend: false,
+            samples,
+            highlights: None,
+            shadows: false,
+            output: 0,
+        }
     }
 }
 
@@ -121,6 +131,10 @@ impl SurfacePipelines {
         };
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
+        let shading = [
+            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("OUTPUT", f64::from(variant.output)),
+        ];
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
             ("ON_PANORAMA", yes(highlights.on_panorama)),
@@ -133,9 +147,11 @@ impl SurfacePipelines {
             ("REPLACES", yes(highlights.replaces)),
             ("HAS_TONE", yes(highlights.has_tone)),
             ("HAS_MASK", yes(highlights.has_mask)),
-            ("OUTPUT", f64::from(highlights.output)),
         ];
-        let constants = if variant.highlights.is_some() { &constants[..] } else { &[] };
+        let mut constants: Vec<(&str, f64)> =
+            if variant.highlights.is_some() { constants.to_vec() } else { Vec::new() };
+        // Only the paint pass has these.
+        constants.extend(shading.into_iter().filter(|(_, value)| *value != 0.0));
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(layout),
@@ -181,7 +197,7 @@ impl SurfacePipelines {
                 module: &self.module,
                 entry_point: Some(fragment_entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants,
+                    constants: &constants,
                     ..Default::default()
                 },
                 targets: &targets,
