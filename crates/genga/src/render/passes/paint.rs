@@ -40,7 +40,12 @@ impl PaintPass {
         };
         Self {
             surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"])
-                .with_highlights(device, layouts, "highlight_fragment"),
+                .with_ink(["hatched_vertex", "hatched_fragment"])
+                .with_highlights(
+                    device,
+                    layouts,
+                    ["highlight_fragment", "hatched_highlight_fragment"],
+                ),
             hulls: make("hull", module, ["hull_vertex", "hull_fragment"]),
         }
     }
@@ -72,7 +77,8 @@ impl PaintPass {
         let [opaque, blended] = sorted_items(prepared, aim.eye);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
-            Variant { highlights, ..Variant::of(item, samples) }
+            let hatch = item.hatch.filter(|_| output_has_ink(output));
+            Variant { highlights, hatch, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
@@ -90,6 +96,11 @@ impl PaintPass {
             .map(|&(i, item)| (i, item, Variant { blend: true, ..variant(item) }));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
     }
+}
+
+/// Whether surfaces are inked.
+fn output_has_ink(output: PaintOutput) -> bool {
+    matches!(output, PaintOutput::All | PaintOutput::Plain)
 }
 
 /// How a draw's pipeline draws highlights.
