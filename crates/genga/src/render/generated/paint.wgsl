@@ -604,8 +604,8 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
 }
 
 fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
-    let choice = hatch_hash(line, 1e30, seed).x;
-    let is_second = ways[1].lead + 0.3 * choice > ways[0].lead;
+    let own = hatch_hash(line, 1e30, seed);
+    let is_second = ways[1].lead + 0.3 * own.x > ways[0].lead;
     let at = select(ways[0].at, ways[1].at, is_second);
     let along = octave(at, select(ways[0].slope, ways[1].slope, is_second) * max(pen.length, 1.0));
     let even = hatch_hash(line, along.even * along.period, seed);
@@ -619,7 +619,7 @@ fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
     let half_width = vec2f(GAP) + 0.05 * (1.0 + vec2f(even.w, odd_own.w));
     let distance = abs(vec2f(along.x) - place) - half_width;
     let open = 1.0 - smoothstep(vec2f(0.0), vec2f(TAPER), distance);
-    return Hand(both.x, both.y, max(open.x, open.y * (1.0 - along.frac)));
+    return Hand(both.x, 0.6 * both.y + 0.5 * own.y, max(open.x, open.y * (1.0 - along.frac)));
 }
 
 fn hatch_hash(line: f32, node: f32, seed: u32) -> vec4f {
@@ -1220,7 +1220,7 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let light = saturate(1.0 - pen.darkness);
     let apart = min(2.5 * light, 1.0);
     let carried = saturate(share.x + share.y * weight.yx);
-    let darkness = vec2f(pen.darkness) + loose * (apart * (0.3 * weight - 0.3) - 1.8 * light * light * gap);
+    let darkness = vec2f(pen.darkness) + loose * (apart * (0.15 + 0.55 * light) * (weight - 1.0) - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - exp2(carried * log2(1.0 - tone));
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));

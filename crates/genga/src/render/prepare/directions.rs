@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec2, Vec3};
 
 use crate::scene::{Mesh, Primitive, Scene};
 
@@ -81,40 +81,66 @@ impl Places {
         places
     }
 
-    /// How much and which way the surface bends at each place, from the change of normals along
-    /// the sides (the normal curvature of a side is Δn·Δp / |Δp|²), with a little of `prior`, which
-    /// decides where all directions are alike.
+    /// How much and which way the surface bends at each place: the second fundamental form that fits
+    /// the sides there best (a side's normal curvature is Δn·Δp / |Δp|²), as |κ1| e1 e1ᵀ +
+    /// |κ2| e2 e2ᵀ. With a little of `prior`, which decides where all directions are alike.
     fn bends(&self, prior: &[Vec3]) -> Vec<Tensor> {
-        let mut bends = vec![[0.0; 6]; self.positions.len()];
-        let mut weights = vec![0.0_f32; self.positions.len()];
+        // Normal equations of κ = x² a + 2 x y b + y² c: six sums on the left, three on the right.
+        let mut sums = vec![([0.0_f32; 6], [0.0_f32; 3]); self.positions.len()];
         for &[a, b] in &self.sides {
             let step = self.positions[b as usize] - self.positions[a as usize];
             let turn = self.normals[b as usize] - self.normals[a as usize];
             let length = step.length().max(1e-12);
-            let curvature = (turn.dot(step) / (length * length)).abs();
+            let curvature = turn.dot(step) / (length * length);
             for v in [a, b] {
-                let n = self.normals[v as usize];
-                let along = (step - n * n.dot(step)).normalize_or_zero();
-                add(&mut bends[v as usize], &tensor(along, length * curvature), 1.0);
-                weights[v as usize] += length;
+                let (e, f) = self.normals[v as usize].any_orthonormal_pair();
+                let along = Vec2::new(e.dot(step), f.dot(step)).normalize_or_zero();
+                let x = [along.x * along.x, 2.0 * along.x * along.y, along.y * along.y];
+                let (left, right) = &mut sums[v as usize];
+                let products =
+                    [x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[1] * x[2], x[2] * x[0]];
+                for (sum, product) in left.iter_mut().zip(products) {
+                    *sum += length * product;
+                }
+                for (sum, x) in right.iter_mut().zip(x) {
+                    *sum += length * curvature * x;
+                }
             }
         }
-        let mean = |i: usize, t: &Tensor| (t[0] + t[1] + t[2]) / weights[i].max(1e-12);
-        let all: f32 = bends.iter().enumerate().map(|(i, t)| mean(i, t)).sum::<f32>()
-            / bends.len().max(1) as f32;
-        for (i, t) in bends.iter_mut().enumerate() {
-            for x in t.iter_mut() {
-                *x /= weights[i].max(1e-12);
-            }
+        let mut bends: Vec<Tensor> = sums
+            .iter()
+            .zip(&self.normals)
+            .map(|((left, right), n)| {
+                // Where the sides leave something open it stays small.
+                let ridge = 1e-3 * (left[0] + left[1] + left[2]).max(1e-12);
+                let m = Mat3::from_cols(
+                    Vec3::new(left[0] + ridge, left[3], left[5]),
+                    Vec3::new(left[3], left[1] + ridge, left[4]),
+                    Vec3::new(left[5], left[4], left[2] + ridge),
+                );
+                let form = m.inverse() * Vec3::from(*right);
+                let (e, f) = n.any_orthonormal_pair();
+                let angle = 0.5 * (2.0 * form.y).atan2(form.x - form.z);
+                let (sin, cos) = angle.sin_cos();
+                let ways = [e * cos + f * sin, f * cos - e * sin];
+                let mean = 0.5 * (form.x + form.z);
+                let half = (0.5 * (form.x - form.z)).hypot(form.y);
+                let mut t = tensor(ways[0], (mean + half).abs());
+                add(&mut t, &tensor(ways[1], (mean - half).abs()), 1.0);
+                if t.iter().all(|x| x.is_finite()) { t } else { [0.0; 6] }
+            })
+            .collect();
+        let size = |t: &Tensor| t[0] + t[1] + t[2];
+        let all = bends.iter().map(size).sum::<f32>() / bends.len().max(1) as f32;
+        for ((t, n), prior) in bends.iter_mut().zip(&self.normals).zip(prior) {
             // One sharp fold may not rule its neighbourhood.
-            let size = t[0] + t[1] + t[2];
             let limit = 3.0 * all;
-            if size > limit {
-                t.iter_mut().for_each(|x| *x *= limit / size);
+            if size(t) > limit {
+                let factor = limit / size(t);
+                t.iter_mut().for_each(|x| *x *= factor);
             }
-            let n = self.normals[i];
-            let wanted = (prior[i] - n * n.dot(prior[i])).normalize_or_zero();
-            add(t, &tensor(wanted, 0.35 * all.max(1e-12)), 1.0);
+            let wanted = (*prior - *n * n.dot(*prior)).normalize_or_zero();
+            add(t, &tensor(wanted, 0.2 * all.max(1e-12)), 1.0);
         }
         bends
     }
