@@ -6,6 +6,7 @@ mod contours;
 mod edges;
 mod errors;
 mod geometry;
+mod hatching;
 mod highlight_surfaces;
 mod highlights;
 mod lines;

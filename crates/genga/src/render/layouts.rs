@@ -7,7 +7,7 @@ pub(crate) struct Layouts {
     /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures,
     /// shadow maps.
     pub(crate) surface: wgpu::BindGroupLayout,
-    /// Group 1 of passes that draw surfaces: base colour, emissive, ids.
+    /// Group 1 of passes that draw surfaces: base colour, emissive, ids, hatching.
     pub(crate) material: wgpu::BindGroupLayout,
     /// Group 2 of pipelines that draw highlights; see `shaders/shading/highlight.wesl`.
     pub(crate) highlights: wgpu::BindGroupLayout,
@@ -63,6 +63,8 @@ impl Layouts {
                     (2, B::Filtered),
                     (3, B::Sampler),
                     (4, B::Float),
+                    (5, B::Filtered),
+                    (6, B::Sampler),
                 ],
             ),
             highlights: layout(

@@ -23,6 +23,7 @@ mod file;
 #[cfg(test)]
 mod file_tests;
 mod globs;
+mod hatch;
 mod lines;
 mod merge;
 mod overrides;
@@ -38,6 +39,7 @@ pub use color::{Color, ColorError};
 pub(crate) use file::is_style_path;
 pub use file::{StyleError, json_schema};
 pub use globs::{GlobError, Globs};
+pub use hatch::{Hatch, HatchDirection, HatchMapping, HatchPattern, HatchPreset, HatchTone};
 pub use lines::{
     Detect, DetectScale, Hull, LineColorBy, LineMethod, LineParts, LineSet, LineType, Lines, Rim,
     Strokes,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::{BaseColor, Color, Globs, Ramp, ShadowOverride, picture};
+use super::{BaseColor, Color, Globs, Hatch, Ramp, ShadowOverride, picture};
 use crate::scene::Image;
 
 /// What differs for a part of the scene.
@@ -118,6 +118,8 @@ pub struct PaintOverride {
     pub shade_bias: Option<f32>,
     /// Cast shadows.
     pub shadow: ShadowOverride,
+    /// Instead of the style's `paint.hatch`, all of it.
+    pub hatch: Option<Hatch>,
 }
 
 /// Changes to lines; what is `None` stays.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Color, Shadow, picture};
+use super::{Color, Hatch, Shadow, picture};
 use crate::scene::Image;
 use crate::toml_file::list_with;
 
@@ -77,6 +77,8 @@ pub struct Paint {
     pub shade_bias: f32,
     /// Cast shadows.
     pub shadow: Shadow,
+    /// Ink over the colour: hatching, screen tone, blacks.
+    pub hatch: Hatch,
 }
 
 impl Default for Paint {
@@ -87,6 +89,7 @@ impl Default for Paint {
             ramp: Ramp::default(),
             shade_bias: 0.0,
             shadow: Shadow::default(),
+            hatch: Hatch::default(),
         }
     }
 }

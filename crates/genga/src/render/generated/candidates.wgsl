@@ -113,7 +113,11 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    rest_scale: f32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Edge {
@@ -242,7 +246,8 @@ struct RestVertex {
     joints_01: u32,
     joints_23: u32,
     weights_01: u32,
-    weights_23: u32
+    weights_23: u32,
+    hatch: u32
 }
 
 struct StrokeRange {
@@ -262,7 +267,8 @@ struct WorldVertex {
     z: f32,
     normal: u32,
     smooth_normal: u32,
-    line: u32
+    line: u32,
+    hatch: u32
 }
 
 fn corner_at(index: u32) -> Corner {

@@ -46,7 +46,12 @@ impl PaintPass {
         };
         Self {
             surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"])
-                .with_highlights(device, layouts, "highlight_fragment"),
+                .with_ink(["hatched_vertex", "hatched_fragment"])
+                .with_highlights(
+                    device,
+                    layouts,
+                    ["highlight_fragment", "hatched_highlight_fragment"],
+                ),
             hulls: make("hull", module, ["hull_vertex", "hull_fragment"]),
         }
     }
@@ -79,6 +84,7 @@ impl PaintPass {
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
+            let hatch = item.hatch.filter(|_| output_has_ink(output));
             let output = match output {
                 PaintOutput::All | PaintOutput::Plain => 0,
                 PaintOutput::Highlights => 1,
@@ -87,7 +93,7 @@ impl PaintPass {
                 PaintOutput::Tone => 4,
                 PaintOutput::Shadow => 5,
             };
-            Variant { highlights, shadows, output, ..Variant::of(item, samples) }
+            Variant { highlights, hatch, shadows, output, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
@@ -105,6 +111,11 @@ impl PaintPass {
             .map(|&(i, item)| (i, item, Variant { blend: true, ..variant(item) }));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
     }
+}
+
+/// Whether surfaces are inked.
+fn output_has_ink(output: PaintOutput) -> bool {
+    matches!(output, PaintOutput::All | PaintOutput::Plain)
 }
 
 /// How a draw's pipeline draws highlights.
