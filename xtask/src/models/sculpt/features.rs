@@ -1,7 +1,7 @@
 //! Borders of materials: smooth curves on a mesh that its edges follow exactly, and raised
 //! regions with walls round them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
@@ -9,6 +9,9 @@ use super::field::{Field, gradient, project};
 use super::mesh::{Mesh, prev};
 use super::remesh::stays_flat;
 use super::sweep::Part;
+
+/// How often normals are mixed with their neighbours'.
+const NORMAL_ROUNDS: usize = 4;
 
 /// A part of the surface with a material of its own.
 pub(in crate::models) struct Region<'a> {
@@ -226,15 +229,16 @@ impl Imprinted {
     pub(in crate::models) fn parts(&self, regions: &[Region<'_>]) -> Vec<Part> {
         let mut parts: Vec<Part> = regions.iter().map(|_| Part::default()).collect();
         let mut vertices: BTreeMap<(u32, usize), u32> = BTreeMap::new();
+        let neighbors = self.neighbors();
+        let smooth: Vec<_> =
+            (0..regions.len()).map(|k| self.smooth_region(&neighbors, regions, k)).collect();
         for (h, &v) in self.mesh.corners.iter().enumerate() {
             let label = self.labels[h / 3];
-            let Region { surface, raised, .. } = regions[label];
             let part = &mut parts[label];
             let index = *vertices.entry((v, label)).or_insert_with(|| {
-                let p = self.mesh.point(v);
-                let p = if raised { project(surface, p) } else { p };
+                let (p, normal) = smooth[label][&(v as usize)];
                 part.sources.push(v);
-                part.push(p, gradient(surface, p).normalize_or_zero())
+                part.push(p, normal)
             });
             part.indices.push(index);
         }
@@ -293,6 +297,52 @@ impl Imprinted {
         parts
     }
 
+    /// The vertices that each vertex has an edge to.
+    fn neighbors(&self) -> Vec<Vec<usize>> {
+        let mut neighbors = vec![Vec::new(); self.mesh.points.len()];
+        for h in 0..self.mesh.half_edges() {
+            neighbors[self.mesh.from(h) as usize].push(self.mesh.to(h) as usize);
+        }
+        neighbors
+    }
+
+    /// Place and normal of each vertex of a region, on the region's own surface.
+    ///
+    /// A field turns more sharply in furrows than edges can follow, and tones would end in teeth
+    /// there. So the field's normals are mixed with their neighbours', on the region's own surface
+    /// also beyond its border: no hard edge is rounded off, and regions of one surface agree on it.
+    fn smooth_region(
+        &self,
+        neighbors: &[Vec<usize>],
+        regions: &[Region<'_>],
+        label: usize,
+    ) -> BTreeMap<usize, (DVec3, DVec3)> {
+        let Region { surface, raised, .. } = regions[label];
+        let place = |v: usize| {
+            let p = self.mesh.points[v];
+            let p = if raised { project(surface, p) } else { p };
+            (p, gradient(surface, p).normalize_or_zero())
+        };
+        let corners = self.mesh.corners.iter().enumerate();
+        let own = corners.filter(|(h, _)| self.labels[h / 3] == label).map(|(_, &v)| v as usize);
+        let mut found: BTreeMap<usize, (DVec3, DVec3)> = BTreeMap::new();
+        let mut ring: BTreeSet<usize> = own.collect();
+        for _ in 0..NORMAL_ROUNDS + 2 {
+            found.extend(ring.iter().map(|&v| (v, place(v))));
+            let near = ring.iter().flat_map(|&v| &neighbors[v]).copied();
+            ring = near.filter(|v| !found.contains_key(v)).collect();
+        }
+        for _ in 0..NORMAL_ROUNDS {
+            let mixed = |(&v, &(p, normal)): (&usize, &(DVec3, DVec3))| {
+                let near = neighbors[v].iter().filter_map(|n| found.get(n)).map(|(_, n)| *n);
+                let sum: DVec3 = near.sum();
+                (v, (p, (normal + sum.normalize_or_zero()).normalize_or_zero()))
+            };
+            found = found.iter().map(mixed).collect();
+        }
+        found
+    }
+
     /// The vertices before any stood off the surface.
     pub(in crate::models) fn points(&self) -> &[DVec3] {
         &self.mesh.points
@@ -304,10 +354,7 @@ impl Imprinted {
         mut values: Vec<Vec<f64>>,
         rounds: usize,
     ) -> Vec<Vec<f64>> {
-        let mut neighbors = vec![Vec::new(); values.len()];
-        for h in 0..self.mesh.half_edges() {
-            neighbors[self.mesh.from(h) as usize].push(self.mesh.to(h) as usize);
-        }
+        let neighbors = self.neighbors();
         for _ in 0..rounds {
             let mixed = |(v, own): (usize, &Vec<f64>)| {
                 let near = &neighbors[v];
