@@ -31,10 +31,11 @@ fn in_head(p: DVec3) -> DVec3 {
     HEAD_PIVOT + (p - HEAD_PIVOT) / HEAD_SCALE
 }
 
-/// Folds a point into the half where x ≥ 0, rounded by some millimetres so that the halves meet
-/// without a crease.
+/// Folds a point into the half where x ≥ 0, rounded by 4 mm on the head and 9 mm below, so that the
+/// halves meet without a crease.
 fn folded(p: DVec3) -> DVec3 {
-    DVec3::new((p.x * p.x + 1.6e-5).sqrt(), p.y, p.z)
+    let round = 0.004 + 0.005 * smooth_step(1.15, 1.0, p.y);
+    DVec3::new((p.x * p.x + round * round).sqrt(), p.y, p.z)
 }
 
 impl Body {
@@ -151,6 +152,15 @@ impl Wardrobe<'_> {
     pub(super) fn belt(&self, p: DVec3) -> f64 {
         let middle = 1.055 - 0.06 * p.z;
         ((p.y - middle).abs() - 0.021).max(p.x.abs() - 0.25)
+    }
+
+    /// Leather does not follow muscles: it lies where they are on the mean over some centimetres.
+    pub(super) fn belt_surface(&self, p: DVec3) -> f64 {
+        let along = DVec3::new(p.z, 0.0, -p.x).normalize_or_zero();
+        let ways = [along * 0.036, along * 0.018, DVec3::Y * 0.016];
+        let sum: f64 = ways.iter().map(|&way| self.0.body(p + way) + self.0.body(p - way)).sum();
+        let own = self.0.body(p);
+        ((sum + own) / 7.0 - 0.0085).min(own - 0.004)
     }
 
     pub(super) fn buckle(&self, p: DVec3) -> f64 {

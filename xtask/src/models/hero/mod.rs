@@ -59,8 +59,8 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
     let skin = |p: DVec3| body.body(p);
     let hair_surface = |p: DVec3| body.hair(p);
     let mask_surface = |p: DVec3| w.mask_surface(p);
-    let belt_surface = |p: DVec3| body.body(p) - 0.0065;
-    let buckle_surface = |p: DVec3| body.body(p) - 0.0120;
+    let belt_surface = |p: DVec3| w.belt_surface(p);
+    let buckle_surface = |p: DVec3| w.belt_surface(p) - 0.0055;
     let trunks_surface = |p: DVec3| body.body(p) - 0.0025;
     let (hair, eye, mask) = (|p| w.hair(p), |p| w.eye(p), |p| w.mask(p));
     let (mouth, skin_in, buckle) = (|p| w.mouth(p), |p| w.skin(p), |p| w.buckle(p));

@@ -30,7 +30,7 @@ pub(super) fn body_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
     let mut w = vec![0.0; bones];
     w[HIPS] = 1.0;
     // The trunk from below to above.
-    hand_on(&mut w, HIPS, SPINE, smooth_step(1.06, 1.17, q.y));
+    hand_on(&mut w, HIPS, SPINE, smooth_step(1.075, 1.19, q.y));
     hand_on(&mut w, SPINE, CHEST, smooth_step(1.18, 1.32, q.y));
     hand_on(&mut w, CHEST, UPPER_CHEST, smooth_step(1.31, 1.47, q.y));
     let of_neck = smooth_step(0.02, -0.02, head - torso) * smooth_step(1.56, 1.62, q.y);
@@ -45,7 +45,9 @@ pub(super) fn body_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
         hand_on(&mut w, bone, UPPER_ARM + of, on_arm);
     }
     let on_leg = smooth_step(-0.045, 0.055, torso - leg)
-        * smooth_step(-0.07, 0.06, (q - upper_leg().from).dot(upper_leg().along));
+        * smooth_step(-0.07, 0.06, (q - upper_leg().from).dot(upper_leg().along))
+        // The belt stays on the hips.
+        * smooth_step(1.035, 0.985, q.y);
     for bone in [HIPS, SPINE] {
         hand_on(&mut w, bone, UPPER_LEG + of, on_leg);
     }

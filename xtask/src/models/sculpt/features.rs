@@ -11,7 +11,7 @@ use super::remesh::stays_flat;
 use super::sweep::Part;
 
 /// How often normals are mixed with their neighbours'.
-const NORMAL_ROUNDS: usize = 4;
+const NORMAL_ROUNDS: usize = 3;
 
 /// A part of the surface with a material of its own.
 pub(in crate::models) struct Region<'a> {
@@ -75,7 +75,8 @@ pub(in crate::models) fn imprint(
         }
     }
     let (mesh, borders) = without_short_edges(mesh, borders, length);
-    let labels = label(&mesh, &borders, regions);
+    let mut labels = label(&mesh, &borders, regions);
+    cut_ears(&mesh, &borders, &mut labels);
     Imprinted { mesh, borders, labels }
 }
 
@@ -138,6 +139,25 @@ fn label(mesh: &Mesh, borders: &[u32], regions: &[Region<'_>]) -> Vec<usize> {
             (0..regions.len() - 1).find(|&k| holds(k)).unwrap_or(regions.len() - 1)
         })
         .collect()
+}
+
+/// Gives triangles that lie between other regions on two sides, all corners on a border, to those:
+/// the border would run out to their tip and back.
+fn cut_ears(mesh: &Mesh, borders: &[u32], labels: &mut [usize]) {
+    for _ in 0..3 {
+        for t in 0..labels.len() {
+            let halves = [0, 1, 2].map(|i| (3 * t + i) as u32);
+            let beyond = halves.map(|h| labels[mesh.twin(h) as usize / 3]);
+            let on_border = halves.iter().all(|&h| borders[mesh.from(h) as usize] != 0);
+            let other = (0..3).find(|&i| {
+                let next = beyond[(i + 1) % 3];
+                beyond[i] != labels[t] && beyond[i] == next && beyond[(i + 2) % 3] == labels[t]
+            });
+            if let Some(i) = other.filter(|_| on_border) {
+                labels[t] = beyond[i];
+            }
+        }
+    }
 }
 
 /// Evens out the triangles near the borders; border vertices stay on their border.
