@@ -65,18 +65,22 @@ pub(in crate::models) fn imprint(
                 g[v] = 0.0;
             }
         }
-        for h in 0..mesh.half_edges() {
-            let Some(t) = crosses(&mesh, &borders, &g, h) else { continue };
-            let p = mesh.point(mesh.from(h)).lerp(mesh.point(mesh.to(h)), t.clamp(0.05, 0.95));
-            let both = borders[mesh.from(h) as usize] & borders[mesh.to(h) as usize];
-            mesh.split(h, onto_border(p, field, region.inside));
-            borders.push(bit | both);
-            g.push(0.0);
+        // Splitting gives sides of the two triangles new numbers, so those are looked at as well.
+        let mut h = 0;
+        while h < mesh.half_edges() {
+            if let Some(t) = crosses(&mesh, &borders, &g, h) {
+                let (a, b) = (mesh.from(h), mesh.to(h));
+                let p = mesh.point(a).lerp(mesh.point(b), t.clamp(0.05, 0.95));
+                let both = borders[a as usize] & borders[b as usize];
+                mesh.split(h, onto_border(p, field, region.inside));
+                borders.push(bit | both);
+                g.push(0.0);
+            }
+            h += 1;
         }
     }
     let (mesh, borders) = without_short_edges(mesh, borders, length);
-    let mut labels = label(&mesh, &borders, regions);
-    cut_ears(&mesh, &borders, &mut labels);
+    let labels = label(&mesh, &borders, regions);
     Imprinted { mesh, borders, labels }
 }
 
@@ -139,25 +143,6 @@ fn label(mesh: &Mesh, borders: &[u32], regions: &[Region<'_>]) -> Vec<usize> {
             (0..regions.len() - 1).find(|&k| holds(k)).unwrap_or(regions.len() - 1)
         })
         .collect()
-}
-
-/// Gives triangles that lie between other regions on two sides, all corners on a border, to those:
-/// the border would run out to their tip and back.
-fn cut_ears(mesh: &Mesh, borders: &[u32], labels: &mut [usize]) {
-    for _ in 0..3 {
-        for t in 0..labels.len() {
-            let halves = [0, 1, 2].map(|i| (3 * t + i) as u32);
-            let beyond = halves.map(|h| labels[mesh.twin(h) as usize / 3]);
-            let on_border = halves.iter().all(|&h| borders[mesh.from(h) as usize] != 0);
-            let other = (0..3).find(|&i| {
-                let next = beyond[(i + 1) % 3];
-                beyond[i] != labels[t] && beyond[i] == next && beyond[(i + 2) % 3] == labels[t]
-            });
-            if let Some(i) = other.filter(|_| on_border) {
-                labels[t] = beyond[i];
-            }
-        }
-    }
 }
 
 /// Evens out the triangles near the borders; border vertices stay on their border.
@@ -386,5 +371,39 @@ impl Imprinted {
             values = values.iter().enumerate().map(mixed).collect();
         }
         values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::models::sculpt::{polygonise, remesh};
+
+    /// Where two regions meet, every corner is on the border: none was left uncut because an edge
+    /// had got another number.
+    #[test]
+    fn borders_of_regions_have_no_snags() {
+        let ball = |p: DVec3| p.length() - 0.1;
+        let length = |_: DVec3| 0.008;
+        let spots = |p: DVec3| (p * 40.0).to_array().map(f64::cos).iter().sum::<f64>() * 0.02;
+        let rest = |_: DVec3| -1.0;
+        let regions = [
+            Region { inside: &spots, surface: &ball, raised: false },
+            Region { inside: &rest, surface: &ball, raised: false },
+        ];
+        let mesh = polygonise(&ball, DVec3::splat(-0.12), DVec3::splat(0.12), 0.006);
+        let mesh = remesh(mesh, &ball, &length, 4);
+        let mut imprinted = imprint(mesh, &ball, &regions, &length);
+        relax(&mut imprinted, &ball, &regions, 2);
+        let Imprinted { mesh, labels, .. } = &imprinted;
+        let mut corners = 0;
+        for h in 0..mesh.half_edges() {
+            if labels[h as usize / 3] != labels[mesh.twin(h) as usize / 3] {
+                corners += 1;
+                let off = spots(mesh.point(mesh.from(h)));
+                assert!(off.abs() < 1e-4, "{off} at {}", mesh.point(mesh.from(h)));
+            }
+        }
+        assert!(corners > 100, "{corners}");
     }
 }
