@@ -385,7 +385,7 @@ mod tests {
     fn borders_of_regions_have_no_snags() {
         let ball = |p: DVec3| p.length() - 0.1;
         let length = |_: DVec3| 0.008;
-        let spots = |p: DVec3| (p * 40.0).to_array().map(f64::cos).iter().sum::<f64>() * 0.02;
+        let spots = |p: DVec3| (p * 40.0).to_array().map(libm::cos).iter().sum::<f64>() * 0.02;
         let rest = |_: DVec3| -1.0;
         let regions = [
             Region { inside: &spots, surface: &ball, raised: false },
