@@ -22,7 +22,9 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Mat4, Vec3};
 
 use super::glb::{MaterialId, Model, NodeId, Surface};
-use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh};
+use super::sculpt::{
+    Imprinted, Part, Region, imprint, polygonise, relax, remesh, smooth_step,
+};
 use body::{Body, Wardrobe, edge_length};
 use weights::Weights;
 
@@ -104,7 +106,13 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
 fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
     let weights =
         imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
-    imprinted.diffused(weights, 8)
+    let weights = imprinted.diffused(weights, 8, &|_| 0.5);
+    // Armpits close far when the arms come down.
+    let armpit = |p: DVec3| {
+        let off = p.y - 1.46;
+        0.5 * smooth_step(0.16, 0.08, (DVec3::new(p.x.abs() - 0.23, off, p.z + 0.01)).length())
+    };
+    imprinted.diffused(weights, 20, &armpit)
 }
 
 impl Held {

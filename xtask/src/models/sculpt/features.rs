@@ -353,12 +353,15 @@ impl Imprinted {
         &self.mesh.points
     }
 
-    /// Values of the vertices, each mixed with its neighbours' that many times.
+    /// Values of the vertices, each mixed with its neighbours' that many times; at each place the
+    /// neighbours have the share `rate`.
     pub(in crate::models) fn diffused(
         &self,
         mut values: Vec<Vec<f64>>,
         rounds: usize,
+        rate: &dyn Fn(DVec3) -> f64,
     ) -> Vec<Vec<f64>> {
+        let rates: Vec<f64> = self.mesh.points.iter().map(|&p| rate(p)).collect();
         let neighbors = self.neighbors();
         for _ in 0..rounds {
             let mixed = |(v, own): (usize, &Vec<f64>)| {
@@ -366,7 +369,11 @@ impl Imprinted {
                 let mean = |i: usize| {
                     near.iter().map(|&n| values[n][i]).sum::<f64>() / near.len().max(1) as f64
                 };
-                (0..own.len()).map(|i| 0.5 * own[i] + 0.5 * mean(i)).collect()
+                let rate = rates[v];
+                if rate == 0.0 {
+                    return own.clone();
+                }
+                (0..own.len()).map(|i| own[i] + (mean(i) - own[i]) * rate).collect()
             };
             values = values.iter().enumerate().map(mixed).collect();
         }
