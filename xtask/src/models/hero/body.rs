@@ -199,10 +199,11 @@ impl Wardrobe<'_> {
         (y - upper).max(lower - y).max(behind) * 0.9
     }
 
-    /// It lies flatter on the nose, whose sides are steep.
+    /// It lies flatter on the nose, whose sides are steep, and on the skin where hair covers it.
     pub(super) fn mask_surface(&self, p: DVec3) -> f64 {
         let (u, _) = Self::on_face(in_head(p));
-        self.0.body(p) - 0.0005 - 0.0018 * smooth_step(0.010, 0.026, u)
+        let free = smooth_step(0.0, 0.008, self.0.hair(p) - self.0.body(p));
+        self.0.body(p) - 0.0002 - (0.0003 + 0.0018 * smooth_step(0.010, 0.026, u)) * free
     }
 
     pub(super) fn eye(&self, p: DVec3) -> f64 {

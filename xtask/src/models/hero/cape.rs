@@ -23,7 +23,7 @@ pub(super) fn cape(body: &Body) -> Part {
             (0..=COLUMNS).map(|c| place(body, 1.0 - 2.0 * c as f64 / COLUMNS as f64, v)).collect()
         })
         .collect();
-    let mut part = sheet(&rows, 0.007);
+    let mut part = sheet(&rows, 0.006);
     part.uvs = vec![DVec2::ZERO; part.positions.len()];
     for (uv, p) in part.uvs.iter_mut().zip(&part.positions) {
         *uv = DVec2::new(p.x + 0.5, 1.6 - p.y);

@@ -230,7 +230,7 @@ fn punch(t: f64) -> Pose {
     ];
     struck.arms[1] = Arm {
         shoulder: [4.0, 24.0],
-        wrist: v(0.02, 1.38, 0.72),
+        wrist: v(0.03, 1.40, 0.98),
         elbow: v(-1.0, -0.35, 0.0),
         hand: v(0.05, 0.02, 1.0),
         palm: v(0.15, -1.0, 0.0),
@@ -332,8 +332,8 @@ fn beam(t: f64) -> Pose {
         arm.shoulder = [0.0, 24.0];
     }
     // The left hand stays clear of the shield that is before it.
-    thrust.arms[0].hand = v(0.0, 0.35, 0.94);
-    thrust.arms[0].palm = v(-0.70, -0.70, 0.3);
+    thrust.arms[0].hand = v(-0.10, 0.45, 0.90);
+    thrust.arms[0].palm = v(-0.85, -0.30, 0.20);
     thrust.cape = [[24.0, 0.0, 0.0], [16.0, 0.0, 0.0], [10.0, 0.0, 0.0], [-8.0, 0.0, 0.0]];
     let mut held = thrust;
     held.hips_at.z -= 0.02;

@@ -107,12 +107,16 @@ fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
     let weights =
         imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
     let weights = imprinted.diffused(weights, 8, &|_| 0.5);
-    // Armpits close far when the arms come down.
-    let armpit = |p: DVec3| {
-        let off = p.y - 1.46;
-        0.5 * smooth_step(0.16, 0.08, (DVec3::new(p.x.abs() - 0.23, off, p.z + 0.01)).length())
+    // Shoulders and the crotch fold far.
+    let folds = |p: DVec3| {
+        let near = |at: DVec3, radius: f64| {
+            let p = DVec3::new(p.x.abs(), p.y, p.z);
+            smooth_step(2.0 * radius, radius, p.distance(at))
+        };
+        let shoulder = near(DVec3::new(0.23, 1.47, 0.01), 0.085);
+        0.5 * shoulder.max(near(DVec3::new(0.0, 0.89, 0.03), 0.06))
     };
-    imprinted.diffused(weights, 20, &armpit)
+    imprinted.diffused(weights, 28, &folds)
 }
 
 impl Held {

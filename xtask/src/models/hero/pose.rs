@@ -11,7 +11,7 @@ use super::skeleton::{
 };
 
 /// Elbows and knees bend no further: such muscles leave no room for more.
-const MOST_BENT_DEG: f64 = 106.0;
+const MOST_BENT_DEG: f64 = 103.0;
 
 /// Turns in degrees: bow forwards, turn to the own left, tilt to the own right.
 pub(super) type Turn = [f64; 3];
