@@ -101,10 +101,10 @@ pub(super) fn edge_length(p: DVec3) -> f64 {
     finer(0.0035, on_head(DVec3::new(0.031, 1.80, 0.09), 0.026));
     finer(0.0024, on_head(DVec3::new(0.0, 1.738, 0.10), 0.022));
     finer(0.0045, on_head(DVec3::new(0.078, 1.786, -0.012), 0.03));
-    finer(0.0060, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
+    finer(0.0058, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
     finer(0.0120, near(DVec3::new(0.165, 0.03, 0.04), 0.14));
     finer(0.0098, near(DVec3::new(0.0, 1.29, 0.09), 0.17));
-    finer(0.0070, near(DVec3::new(0.0, 1.05, 0.12), 0.045));
+    finer(0.0060, near(DVec3::new(0.0, 1.05, 0.12), 0.045));
     finer(0.0060, near(DVec3::new(0.0, 1.462, 0.10), 0.075));
     finer(0.0125, near(DVec3::new(0.23, 1.50, -0.01), 0.12));
     length
@@ -203,7 +203,7 @@ impl Wardrobe<'_> {
     pub(super) fn mask_surface(&self, p: DVec3) -> f64 {
         let (u, _) = Self::on_face(in_head(p));
         let free = smooth_step(0.0, 0.008, self.0.hair(p) - self.0.body(p));
-        self.0.body(p) - 0.0002 - (0.0003 + 0.0018 * smooth_step(0.010, 0.026, u)) * free
+        self.0.body(p) - (0.0005 + 0.0018 * smooth_step(0.010, 0.026, u)) * free
     }
 
     pub(super) fn eye(&self, p: DVec3) -> f64 {

@@ -322,14 +322,14 @@ fn beam(t: f64) -> Pose {
         [-10.0, 0.0, 0.0],
     ];
     thrust.arms = both(
-        v(0.17, 1.29, 0.86),
+        v(0.20, 1.27, 0.86),
         v(0.7, -1.0, 0.0),
         v(0.10, 0.82, 0.55),
         v(-0.45, -0.45, 0.82),
         0.0,
     );
     for arm in &mut thrust.arms {
-        arm.shoulder = [0.0, 24.0];
+        arm.shoulder = [0.0, 26.0];
     }
     // The left hand stays clear of the shield that is before it.
     thrust.arms[0].hand = v(-0.10, 0.45, 0.90);

@@ -107,14 +107,15 @@ fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
     let weights =
         imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
     let weights = imprinted.diffused(weights, 8, &|_| 0.5);
-    // Shoulders and the crotch fold far.
+    // Shoulders, crotch and groins fold far.
     let folds = |p: DVec3| {
         let near = |at: DVec3, radius: f64| {
             let p = DVec3::new(p.x.abs(), p.y, p.z);
             smooth_step(2.0 * radius, radius, p.distance(at))
         };
         let shoulder = near(DVec3::new(0.23, 1.47, 0.01), 0.085);
-        0.5 * shoulder.max(near(DVec3::new(0.0, 0.89, 0.03), 0.06))
+        let crotch = near(DVec3::new(0.0, 0.89, 0.03), 0.06);
+        0.5 * shoulder.max(crotch).max(near(DVec3::new(0.09, 0.94, 0.08), 0.045))
     };
     imprinted.diffused(weights, 28, &folds)
 }

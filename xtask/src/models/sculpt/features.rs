@@ -325,7 +325,9 @@ impl Imprinted {
         let Region { surface, raised, .. } = regions[label];
         let place = |v: usize| {
             let p = self.mesh.points[v];
-            let p = if raised { project(surface, p) } else { p };
+            let off = if raised { project(surface, p) } else { p };
+            // Where the surfaces meet there is no wall.
+            let p = if off.distance(p) < 5e-5 { p } else { off };
             (p, gradient(surface, p).normalize_or_zero())
         };
         let corners = self.mesh.corners.iter().enumerate();
