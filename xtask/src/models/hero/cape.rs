@@ -7,8 +7,8 @@ use super::skeleton::{CAPE, CAPE_JOINTS};
 use super::weights::{Weights, body_weights};
 use crate::models::sculpt::{Part, gradient, lathe, sheet, smooth_step};
 
-const ROWS: usize = 36;
-const COLUMNS: usize = 38;
+const ROWS: usize = 34;
+const COLUMNS: usize = 36;
 /// Distance that it keeps from the body at the least, in metres.
 const CLEARANCE: f64 = 0.016;
 /// Angle in radians from behind at which its upper corners lie.

@@ -327,7 +327,7 @@ impl Imprinted {
             let p = self.mesh.points[v];
             let off = if raised { project(surface, p) } else { p };
             // Where the surfaces meet there is no wall.
-            let p = if off.distance(p) < 5e-5 { p } else { off };
+            let p = if off.distance(p) < 2.5e-4 { p } else { off };
             (p, gradient(surface, p).normalize_or_zero())
         };
         let corners = self.mesh.corners.iter().enumerate();
