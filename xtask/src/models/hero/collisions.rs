@@ -159,14 +159,14 @@ fn cuts(
         all.points.iter().zip(&all.weights).map(|(&p, w)| placed.skinned(bones, p, w)).collect();
     let corners = |t: usize| all.triangles[t].0.map(|i| moved[i as usize]);
     let same = |t: usize| all.triangles[t].0.map(|i| all.same[i as usize]);
-    let bounds = |t: usize| {
+    let bound = |t: usize| {
         let [a, b, c] = corners(t);
         let cell = |p: DVec3| (p / CELL).floor().as_ivec3();
         (cell(a.min(b).min(c)), cell(a.max(b).max(c)))
     };
+    let bounds: Vec<_> = (0..all.triangles.len()).map(bound).collect();
     let mut cells: BTreeMap<[i32; 3], Vec<usize>> = BTreeMap::new();
-    for t in 0..all.triangles.len() {
-        let (least, most) = bounds(t);
+    for (t, &(least, most)) in bounds.iter().enumerate() {
         for x in least.x..=most.x {
             for y in least.y..=most.y {
                 for z in least.z..=most.z {
@@ -182,7 +182,7 @@ fn cuts(
                 let (pt, pu) = (all.triangles[t].1, all.triangles[u].1);
                 let pair = (pt.min(pu), pt.max(pu));
                 // Each pair is looked at in the first cell that both reach into.
-                let first = bounds(t).0.max(bounds(u).0).to_array() == cell;
+                let first = bounds[t].0.max(bounds[u].0).to_array() == cell;
                 let ours = same(t);
                 if rooted(pair) || !first || same(u).iter().any(|v| ours.contains(v)) {
                     continue;
