@@ -115,7 +115,8 @@ fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
         };
         let shoulder = near(DVec3::new(0.23, 1.47, 0.01), 0.085);
         let crotch = near(DVec3::new(0.0, 0.89, 0.03), 0.06);
-        0.5 * shoulder.max(crotch).max(near(DVec3::new(0.09, 0.94, 0.08), 0.045))
+        let groin = near(DVec3::new(0.09, 0.94, 0.08), 0.045);
+        0.5 * shoulder.max(0.2 * crotch).max(0.6 * groin)
     };
     imprinted.diffused(weights, 28, &folds)
 }

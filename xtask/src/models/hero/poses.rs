@@ -11,7 +11,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 /// The pose of the file: a charge behind the shield, the right fist drawn back.
 pub(super) fn charge() -> Pose {
     Pose {
-        hips_at: v(0.0, 0.815, 0.0),
+        hips_at: v(0.0, 0.825, 0.0),
         trunk: [
             [12.0, -22.0, 0.0],
             [9.0, -8.0, 0.0],

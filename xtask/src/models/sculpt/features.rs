@@ -11,7 +11,7 @@ use super::remesh::stays_flat;
 use super::sweep::Part;
 
 /// How often normals are mixed with their neighbours'.
-const NORMAL_ROUNDS: usize = 3;
+const NORMAL_ROUNDS: usize = 2;
 
 /// A part of the surface with a material of its own.
 pub(in crate::models) struct Region<'a> {
@@ -314,8 +314,9 @@ impl Imprinted {
     /// Place and normal of each vertex of a region, on the region's own surface.
     ///
     /// A field turns more sharply in furrows than edges can follow, and tones would end in teeth
-    /// there. So the field's normals are mixed with their neighbours', on the region's own surface
-    /// also beyond its border: no hard edge is rounded off, and regions of one surface agree on it.
+    /// there. So normals are those of the triangles, mixed with their neighbours', on the region's
+    /// own surface also beyond its border: no hard edge is rounded off, and regions of one surface
+    /// agree on it. Lines follow these normals, so they may not stray far from the triangles.
     fn smooth_region(
         &self,
         neighbors: &[Vec<usize>],
@@ -334,10 +335,25 @@ impl Imprinted {
         let own = corners.filter(|(h, _)| self.labels[h / 3] == label).map(|(_, &v)| v as usize);
         let mut found: BTreeMap<usize, (DVec3, DVec3)> = BTreeMap::new();
         let mut ring: BTreeSet<usize> = own.collect();
-        for _ in 0..NORMAL_ROUNDS + 2 {
+        for _ in 0..NORMAL_ROUNDS + 3 {
             found.extend(ring.iter().map(|&v| (v, place(v))));
             let near = ring.iter().flat_map(|&v| &neighbors[v]).copied();
             ring = near.filter(|v| !found.contains_key(v)).collect();
+        }
+        let mut sums: BTreeMap<usize, DVec3> = BTreeMap::new();
+        for t in self.mesh.corners.chunks_exact(3) {
+            let corners = [0, 1, 2].map(|i| t[i] as usize);
+            if let [Some(a), Some(b), Some(c)] = corners.map(|v| found.get(&v)) {
+                let normal = (b.0 - a.0).cross(c.0 - a.0);
+                for v in corners {
+                    *sums.entry(v).or_default() += normal;
+                }
+            }
+        }
+        for (v, sum) in sums {
+            if let Some((_, normal)) = found.get_mut(&v) {
+                *normal = sum.normalize_or_zero();
+            }
         }
         for _ in 0..NORMAL_ROUNDS {
             let mixed = |(&v, &(p, normal)): (&usize, &(DVec3, DVec3))| {
