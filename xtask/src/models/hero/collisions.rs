@@ -261,7 +261,7 @@ fn dbg_scan() {
         eprintln!("{n}:{o}");
     }
     let mut pose = (CLIPS[0].pose)(0.0);
-    for i in 0..=20 {
+    for i in 16..=30 {
         pose.arms[0].fist = f64::from(i) * 0.05;
         pose.arms[1].fist = f64::from(i) * 0.05;
         eprintln!("fist {:.2} {:?} {:?}", pose.arms[0].fist, cuts(&all, &bones, &pose).get(&(4, 4)), cuts(&all, &bones, &pose).get(&(10, 10)));

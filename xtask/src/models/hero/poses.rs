@@ -23,8 +23,8 @@ pub(super) fn charge() -> Pose {
         arms: [
             Arm {
                 shoulder: [8.0, 16.0],
-                wrist: v(0.04, 1.28, 0.64),
-                elbow: v(1.0, -0.30, 0.0),
+                wrist: v(-0.14, 1.27, 0.56),
+                elbow: v(1.0, -0.40, 0.45),
                 hand: v(-0.90, 0.30, 0.25),
                 palm: v(-0.10, 0.15, -1.0),
                 fist: 1.0,
