@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::form::Form;
-use crate::models::sculpt::{Part, smooth_step};
+use crate::models::sculpt::{Part, plate, smooth_step};
 
 const CENTER: DVec2 = DVec2::new(0.0405, 0.2205);
 const HALF_WIDTH: f64 = 0.0255;
@@ -44,6 +44,8 @@ pub(super) fn opening(p: DVec3) -> f64 {
 
 const IRIS: DVec2 = DVec2::new(CENTER.x - 0.0012, CENTER.y - 0.0020);
 const IRIS_RADII: DVec2 = DVec2::new(0.0165, 0.0225);
+/// The coloured part of the iris within its dark edge.
+const INNER: f64 = 0.955;
 
 const MOUTH_Y: f64 = 0.1660;
 const MOUTH_HALF: f64 = 0.0165;
@@ -121,11 +123,17 @@ pub(super) fn smile(p: DVec2) -> DVec2 {
 /// A point in the face's plane, and its distance off the face in metres.
 type Lifted = (DVec2, f64);
 
-/// A patch on the face for one eye: rows of points in the half where x ≥ 0.
-pub(super) struct Patch(Vec<Vec<Lifted>>);
+/// How far a patch goes into the face, in metres.
+const DEPTH: DVec3 = DVec3::new(0.0, 0.0, -0.0012);
+
+/// A patch on the face for one eye: rows of points in the half where x ≥ 0, rings if it is round.
+pub(super) struct Patch {
+    rows: Vec<Vec<Lifted>>,
+    round: bool,
+}
 
 impl Patch {
-    /// The patch on the face, moved by `warp`, on the left or mirrored to the right.
+    /// The patch on the face, a closed plate sunk into it, moved by `warp`, on the left or mirrored to the right.
     pub(super) fn placed(&self, form: &Form, warp: Warp, right: bool) -> Part {
         let place = |&(p, lift): &Lifted| {
             let q = warp(p);
@@ -134,7 +142,7 @@ impl Patch {
             if right { DVec3::new(-p.x, p.y, p.z) } else { p }
         };
         let rows: Vec<Vec<DVec3>> = self
-            .0
+            .rows
             .iter()
             .map(|row| {
                 let mut row: Vec<DVec3> = row.iter().map(place).collect();
@@ -144,16 +152,14 @@ impl Patch {
                 row
             })
             .collect();
-        let mut part = Part::default();
-        part.grid(&rows, false);
-        part
+        plate(&rows, self.round, DEPTH)
     }
 }
 
 /// A round patch: an ellipse, cut off by the lids and the iris's edge. Rows are rings from the
 /// middle outwards.
 fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
-    const RINGS: usize = 6;
+    const RINGS: usize = 3;
     const STEPS: usize = 40;
     let reach = |angle: f64| {
         let way = DVec2::new(libm::cos(angle), libm::sin(angle));
@@ -162,7 +168,7 @@ fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
         let inside = |r: f64| {
             let p = center + way * r;
             opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002
-                && ((p - IRIS) / IRIS_RADII).length() < 0.999
+                && ((p - IRIS) / radii.max(IRIS_RADII * INNER)).length() < 0.999
         };
         let (mut near, mut far) = (0.0, full);
         if inside(full) {
@@ -185,13 +191,13 @@ fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
                 .collect()
         })
         .collect();
-    Patch(rows)
+    Patch { rows, round: true }
 }
 
 /// A stroke along a line: its middle and half its width at each step from 0 to 1; it stands off
 /// the face most in the middle.
 fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patch {
-    const ACROSS: usize = 4;
+    const ACROSS: usize = 2;
     let rows = (0..=ACROSS)
         .map(|k| {
             // From the lower edge to the upper one: along × across must face the viewer.
@@ -204,7 +210,7 @@ fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patc
                 .collect()
         })
         .collect();
-    Patch(rows)
+    Patch { rows, round: false }
 }
 
 /// The patches of one eye, with their materials.
@@ -223,23 +229,25 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
     let lower_lash = |s: f64| {
         let t = 0.15 + 0.80 * s;
         let (_, y) = lids(t);
-        let thick = 0.0009 * smooth_step(0.0, 0.5, s) * smooth_step(1.0, 0.8, s);
+        let thick = 0.00015 + 0.0008 * smooth_step(0.0, 0.5, s) * smooth_step(1.0, 0.8, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
     let fold = |s: f64| {
         let t = -0.62 + 1.35 * s;
         let (y, _) = lids(t * 0.9);
-        let thick = 0.0006 * smooth_step(0.0, 0.3, s) * smooth_step(1.0, 0.7, s);
+        let thick = 0.00015 + 0.0005 * smooth_step(0.0, 0.3, s) * smooth_step(1.0, 0.7, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y + 0.0072), DVec2::new(0.0, thick))
     };
     let brow = |s: f64| {
         let t = -0.85 + 1.95 * s;
         let y = CENTER.y + 0.0345 + 0.0040 * (1.0 - (t - 0.15) * (t - 0.15)) - 0.0006 * t;
-        let thick = 0.0021 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
+        let thick = 0.00015 + 0.0020 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
     vec![
-        ("iris", disc(IRIS, IRIS_RADII, -0.0009, 0.0004)),
+        // Dark round its edge.
+        ("pupil", disc(IRIS, IRIS_RADII, -0.0010, 0.0003)),
+        ("iris", disc(IRIS, IRIS_RADII * INNER, -0.0008, 0.0004)),
         (
             "iris_shade",
             disc(IRIS + DVec2::Y * 0.0120, IRIS_RADII * DVec2::new(1.2, 0.62), -0.0004, 0.0003),
