@@ -45,7 +45,7 @@ pub(super) fn opening(p: DVec3) -> f64 {
 const IRIS: DVec2 = DVec2::new(CENTER.x - 0.0012, CENTER.y - 0.0020);
 const IRIS_RADII: DVec2 = DVec2::new(0.0165, 0.0225);
 /// The coloured part of the iris within its dark edge.
-const INNER: f64 = 0.955;
+const INNER: f64 = 0.95;
 
 const MOUTH_Y: f64 = 0.1660;
 const MOUTH_HALF: f64 = 0.0165;
@@ -96,7 +96,8 @@ fn lid_motion(p: DVec2, how: f64) -> f64 {
     } else {
         closed - left * (upper - p.y) / (upper - lower) - p.y
     };
-    moved * fade * how
+    // In the corners, where the lids' edges run upright, they keep their order.
+    moved * fade * how * (1.0 - 0.08 * smooth_step(0.85, 1.0, t.abs()))
 }
 
 /// The corners of the mouth rise, the mouth opens, the lower lids lift.
@@ -156,9 +157,9 @@ impl Patch {
     }
 }
 
-/// A round patch: an ellipse, cut off by the lids and the iris's edge. Rows are rings from the
+/// A round patch: an ellipse, cut off by the lids and by an ellipse round the iris's middle. Rows are rings from the
 /// middle outwards.
-fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
+fn disc(center: DVec2, radii: DVec2, within: DVec2, lift: f64, dome: f64) -> Patch {
     const RINGS: usize = 3;
     const STEPS: usize = 40;
     let reach = |angle: f64| {
@@ -167,8 +168,7 @@ fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
         // Until a little before the lid, and within the iris.
         let inside = |r: f64| {
             let p = center + way * r;
-            opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002
-                && ((p - IRIS) / radii.max(IRIS_RADII * INNER)).length() < 0.999
+            opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002 && ((p - IRIS) / within).length() < 0.999
         };
         let (mut near, mut far) = (0.0, full);
         if inside(full) {
@@ -244,22 +244,41 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
         let thick = 0.00015 + 0.0020 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
+    let inner = IRIS_RADII * INNER;
     vec![
         // Dark round its edge.
-        ("pupil", disc(IRIS, IRIS_RADII, -0.0010, 0.0003)),
-        ("iris", disc(IRIS, IRIS_RADII * INNER, -0.0008, 0.0004)),
+        ("pupil", disc(IRIS, IRIS_RADII, IRIS_RADII, -0.0007, 0.0003)),
+        ("iris", disc(IRIS, inner, inner, -0.0005, 0.0004)),
         (
             "iris_shade",
-            disc(IRIS + DVec2::Y * 0.0120, IRIS_RADII * DVec2::new(1.2, 0.62), -0.0004, 0.0003),
+            disc(
+                IRIS + DVec2::Y * 0.0120,
+                IRIS_RADII * DVec2::new(1.2, 0.62),
+                inner,
+                -0.0001,
+                0.0003,
+            ),
         ),
-        ("pupil", disc(IRIS + DVec2::Y * 0.0010, IRIS_RADII * 0.47, 0.0000, 0.0002)),
+        ("pupil", disc(IRIS + DVec2::Y * 0.0010, IRIS_RADII * 0.47, inner, 0.0002, 0.0002)),
         (
             "shine",
-            disc(IRIS + DVec2::new(0.0058, 0.0105), DVec2::new(0.0044, 0.0054), 0.0004, 0.0003),
+            disc(
+                IRIS + DVec2::new(0.0058, 0.0105),
+                DVec2::new(0.0044, 0.0054),
+                inner,
+                0.0005,
+                0.0003,
+            ),
         ),
         (
             "shine",
-            disc(IRIS - DVec2::new(0.0062, 0.0110), DVec2::new(0.0026, 0.0030), 0.0004, 0.0002),
+            disc(
+                IRIS - DVec2::new(0.0062, 0.0110),
+                DVec2::new(0.0026, 0.0030),
+                inner,
+                0.0005,
+                0.0002,
+            ),
         ),
         ("lash", stroke(36, 0.0022, &upper_lash)),
         ("lash", stroke(20, 0.0008, &lower_lash)),

@@ -106,11 +106,7 @@ pub(in crate::models) fn plate(rows: &[Vec<DVec3>], round: bool, depth: DVec3) -
 }
 
 /// Front, back and the hem between them.
-fn thickened(
-    rows: &[Vec<DVec3>],
-    round: bool,
-    behind: &dyn Fn(usize, usize) -> DVec3,
-) -> Part {
+fn thickened(rows: &[Vec<DVec3>], round: bool, behind: &dyn Fn(usize, usize) -> DVec3) -> Part {
     let (last, columns) = (rows.len() - 1, rows[0].len());
     // Columns run the other way, so that the back faces backwards.
     let back_row = |r: usize| (0..columns).rev().map(|c| behind(r, c)).collect();
