@@ -1,9 +1,9 @@
 //! In no frame of any clip, nor in the file's own pose, two triangles cut each other.
 //!
 //! All pairs that share no corner are tested: body, hair, cape, clasps and shield, also within each
-//! and where joints fold. Left out are only locks against the head and each other, and clasps
-//! against the cape and the suit: each is a closed form of its own that is rooted in the other and
-//! moves with it, so that what lies inside is never seen.
+//! and where joints fold. Left out are only locks against the head and each other, clasps against
+//! the cape and the suit, and the strap against the shield: each is a closed form of its own that is
+//! rooted in the other and moves with it, so that what lies inside is never seen.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -18,7 +18,7 @@ use super::skeleton::{
 use super::weights::Weights;
 use super::{Cast, Held, poses, shared_cast};
 
-const NAMES: [&str; 18] = [
+const NAMES: [&str; 19] = [
     "trunk",
     "head",
     "left upper arm",
@@ -37,11 +37,13 @@ const NAMES: [&str; 18] = [
     "shield",
     "locks",
     "clasps",
+    "strap",
 ];
 const CAPE_PART: usize = 14;
 const SHIELD_PART: usize = 15;
 const LOCKS_PART: usize = 16;
 const CLASPS_PART: usize = 17;
+const STRAP_PART: usize = 18;
 
 /// The part that a bone moves.
 fn part_of(bone: usize) -> usize {
@@ -62,9 +64,14 @@ fn part_of(bone: usize) -> usize {
 }
 
 /// Whether one part is rooted in the other for good: locks in the hair that they grow from, clasps
-/// in the cape and the suit that they hold together.
-fn rooted((a, b): (usize, usize)) -> bool {
-    matches!((a, b), (1 | LOCKS_PART, LOCKS_PART) | (0 | CAPE_PART | CLASPS_PART, CLASPS_PART))
+/// in the cape and the suit that they hold together, the strap in the shield.
+fn rooted(pair: (usize, usize)) -> bool {
+    matches!(
+        pair,
+        (1 | LOCKS_PART, LOCKS_PART)
+            | (0 | CAPE_PART | CLASPS_PART, CLASPS_PART)
+            | (SHIELD_PART, STRAP_PART)
+    )
 }
 
 struct Triangles {
@@ -120,10 +127,11 @@ fn triangles(cast: &Cast) -> Triangles {
     }
     let mut on_arm = vec![0.0; CAPE + skeleton::CAPE_JOINTS];
     on_arm[LOWER_ARM] = 1.0;
-    for part in &cast.shield {
+    for (i, part) in cast.shield.iter().enumerate() {
         let points: Vec<DVec3> = part.positions.iter().map(|&p| p + LOWER_ARM_AT).collect();
         let weights = vec![on_arm.clone(); points.len()];
-        all.add(&points, &weights, &part.indices, Some(SHIELD_PART));
+        let which = if i < 3 { SHIELD_PART } else { STRAP_PART };
+        all.add(&points, &weights, &part.indices, Some(which));
     }
     let mut first: HashMap<[u64; 3], u32> = HashMap::new();
     let points = all.points.iter().enumerate();
