@@ -232,9 +232,8 @@ pub(super) fn head() -> Model {
             }
         }
         let mut surface = morphing(&rest, targets);
-        // Lashes and brows are strokes already; the iris has a finer line.
-        let width = if name == "iris" { 0.8 } else { 0.0 };
-        surface.line_widths = vec![width; surface.positions.len()];
+        // They are strokes already.
+        surface.line_widths = vec![0.0; surface.positions.len()];
         surfaces.push((surface, material));
     }
     let face = model.surfaces("face", &surfaces, &TARGETS.map(|(name, _)| name));
