@@ -205,7 +205,7 @@ fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patc
             (0..=steps)
                 .map(|i| {
                     let (middle, half) = line(i as f64 / steps as f64);
-                    (middle - half * side, -0.0003 + lift * (1.0 - side * side))
+                    (middle - half * side, 0.0002 + lift * (1.0 - side * side))
                 })
                 .collect()
         })
@@ -239,7 +239,7 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y + 0.0072), DVec2::new(0.0, thick))
     };
     let brow = |s: f64| {
-        let t = -0.85 + 1.95 * s;
+        let t = -0.85 + 1.70 * s;
         let y = CENTER.y + 0.0345 + 0.0040 * (1.0 - (t - 0.15) * (t - 0.15)) - 0.0006 * t;
         let thick = 0.00015 + 0.0020 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
