@@ -7,6 +7,7 @@ pub mod compare;
 pub mod edges;
 pub mod eye;
 pub mod gpu;
+pub mod hatching;
 pub mod highlight_proofs;
 pub mod highlights;
 pub mod lines;

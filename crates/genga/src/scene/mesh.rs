@@ -35,6 +35,9 @@ pub struct Primitive {
     /// `_LINE_ID`: user line id, 0 to 65535; a triangle has the one that most of its corners have.
     /// Empty for 0.
     pub line_ids: Vec<u32>,
+    /// `_HATCH`: direction of hatching strokes in the node's space, of any length; 0 for none. Empty
+    /// for none anywhere.
+    pub hatch_directions: Vec<Vec3>,
     /// Triangles: three indices each, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Index into [`super::Scene::materials`]; `None` for the default material.

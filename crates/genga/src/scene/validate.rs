@@ -285,6 +285,7 @@ impl Scene {
                 length("joint weights", primitive.weights.len(), true)?;
                 length("line widths", primitive.line_widths.len(), true)?;
                 length("line ids", primitive.line_ids.len(), true)?;
+                length("hatching directions", primitive.hatch_directions.len(), true)?;
                 if primitive.joints.len() != primitive.weights.len() {
                     length("joint weights", primitive.weights.len(), false)?;
                 }

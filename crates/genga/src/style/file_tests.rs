@@ -160,7 +160,7 @@ fn errors_point_into_the_file_that_is_wrong() {
         ),
         (
             &[("a.style.toml", "version = 1\nextends = 'anim'")],
-            "a.style.toml:2:11: unknown style 'anim', did you mean 'anime'? (presets: american-comic, anime, blueprint; ",
+            "a.style.toml:2:11: unknown style 'anim', did you mean 'anime'? (presets: american-comic, american-comic-modern, anime, blueprint, manga, pencil; ",
         ),
     ] {
         let directory = folder(files);

@@ -23,12 +23,14 @@ mod file;
 #[cfg(test)]
 mod file_tests;
 mod globs;
+mod hatch;
 mod lines;
 mod merge;
 mod overrides;
 mod paint;
 pub(crate) mod picture;
 mod presets;
+mod shadow;
 #[cfg(test)]
 mod tests;
 mod widths;
@@ -37,6 +39,7 @@ pub use color::{Color, ColorError};
 pub(crate) use file::is_style_path;
 pub use file::{StyleError, json_schema};
 pub use globs::{GlobError, Globs};
+pub use hatch::{Hatch, HatchDirection, HatchMapping, HatchPattern, HatchPreset, HatchTone};
 pub use lines::{
     Detect, DetectScale, Hull, LineColorBy, LineMethod, LineParts, LineSet, LineType, Lines, Rim,
     Strokes,
@@ -47,6 +50,7 @@ pub use overrides::{
 pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
+pub use shadow::{Shadow, ShadowOverride};
 pub use widths::{Curve, WidthBy, Wobble};
 
 /// A whole look.

@@ -1,10 +1,16 @@
 use super::Style;
 
 /// Name and text of the styles that are part of the program.
-const PRESETS: [(&str, &str); 3] = [
+const PRESETS: [(&str, &str); 6] = [
     ("american-comic", include_str!("../../../../assets/styles/american-comic.style.toml")),
+    (
+        "american-comic-modern",
+        include_str!("../../../../assets/styles/american-comic-modern.style.toml"),
+    ),
     ("anime", include_str!("../../../../assets/styles/anime.style.toml")),
     ("blueprint", include_str!("../../../../assets/styles/blueprint.style.toml")),
+    ("manga", include_str!("../../../../assets/styles/manga.style.toml")),
+    ("pencil", include_str!("../../../../assets/styles/pencil.style.toml")),
 ];
 
 impl Style {

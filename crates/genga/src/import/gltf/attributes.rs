@@ -108,6 +108,20 @@ impl<'a> Attributes<'a, '_> {
         Ok(widths)
     }
 
+    /// `_HATCH`: directions of strokes.
+    pub(super) fn hatch_directions(&self) -> Result<Vec<Vec3>, Problem> {
+        let Some(accessor) = self.accessor("_HATCH", &[Shape::Vec3])? else {
+            return Ok(Vec::new());
+        };
+        let mut directions: Vec<Vec3> = accessor.floats();
+        for direction in &mut directions {
+            if !direction.is_finite() {
+                *direction = Vec3::ZERO;
+            }
+        }
+        Ok(directions)
+    }
+
     /// `_LINE_ID`: whole numbers from 0 to 65535.
     pub(super) fn line_ids(&self) -> Result<Vec<u32>, Problem> {
         let Some(accessor) = self.accessor("_LINE_ID", &[Shape::Scalar])? else {

@@ -39,7 +39,8 @@ struct RestVertex {
     joints_01: u32,
     joints_23: u32,
     weights_01: u32,
-    weights_23: u32
+    weights_23: u32,
+    hatch: u32
 }
 
 struct WorldVertex {
@@ -48,7 +49,8 @@ struct WorldVertex {
     z: f32,
     normal: u32,
     smooth_normal: u32,
-    line: u32
+    line: u32,
+    hatch: u32
 }
 
 fn octahedral_pack(n: vec3f) -> u32 {
@@ -123,5 +125,7 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     let side = select(-1.0, 1.0, dot(row_x.xyz, c_x) >= 0.0);
     let n_in_world = side * vec3f(dot(c_x, n), dot(c_y, n), dot(c_z, n));
     let smooth_in_world = side * vec3f(dot(c_x, smooth_n), dot(c_y, smooth_n), dot(c_z, smooth_n));
-    world[deform.world_first + index] = WorldVertex(p_in_world.x, p_in_world.y, p_in_world.z, octahedral_pack(scaled(n_in_world)), octahedral_pack(scaled(smooth_in_world)), vertex.line);
+    let d = octahedral_unpack(vertex.hatch);
+    let d_in_world = vec3f(dot(row_x.xyz, d), dot(row_y.xyz, d), dot(row_z.xyz, d));
+    world[deform.world_first + index] = WorldVertex(p_in_world.x, p_in_world.y, p_in_world.z, octahedral_pack(scaled(n_in_world)), octahedral_pack(scaled(smooth_in_world)), vertex.line, octahedral_pack(scaled(d_in_world)));
 }

@@ -64,7 +64,11 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    rest_scale: f32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Frame {
@@ -106,6 +110,26 @@ struct GBuffer {
     base: vec4f
 }
 
+struct Hatch {
+    color: vec4f,
+    tones: array<vec4f, 8>,
+    axis: vec4f,
+    turn: vec2f,
+    cross_turn: vec2f,
+    tone_count: u32,
+    pattern: u32,
+    mapping: u32,
+    direction: u32,
+    threshold: f32,
+    spacing: f32,
+    length: f32,
+    irregularity: f32,
+    cross_below: f32,
+    seed: u32,
+    dot_spacing: f32,
+    base_tone: f32
+}
+
 struct LineSet {
     color: vec4f,
     lit_color: vec4f,
@@ -136,8 +160,9 @@ struct Look {
     rim_threshold: f32,
     rim_softness: f32,
     hull_width_m: f32,
+    shadow_tone: f32,
     reserved_0: u32,
-    reserved_1: u32
+    hatch: Hatch
 }
 
 struct MaterialSample {

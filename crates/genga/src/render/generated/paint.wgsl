@@ -18,6 +18,15 @@ var<uniform> lights: array<Light, 16>;
 @group(0) @binding(5)
 var ramp_pictures: texture_2d<f32>;
 
+@group(0) @binding(6)
+var<uniform> shadow_maps: array<ShadowMap, 16>;
+
+@group(0) @binding(7)
+var shadow_depths: texture_depth_2d_array;
+
+@group(0) @binding(8)
+var nearest: sampler;
+
 @group(1) @binding(0)
 var base_color_texture: texture_2d<f32>;
 
@@ -32,6 +41,12 @@ var emissive_sampler: sampler;
 
 @group(1) @binding(4)
 var id_texture: texture_2d<f32>;
+
+@group(1) @binding(5)
+var hatch_image: texture_2d<f32>;
+
+@group(1) @binding(6)
+var hatch_sampler: sampler;
 
 @group(2) @binding(0)
 var<uniform> highlights: HighlightBlock;
@@ -51,9 +66,19 @@ var clamped: sampler;
 @group(2) @binding(5)
 var repeated: sampler;
 
+const AXES = array<vec3f, 6>(vec3f(1.0, 0.0, 0.0), vec3f(0.70710678, 0.70710678, 0.0), vec3f(0.57735027, 0.57735027, 0.57735027), vec3f(0.89442719, 0.4472136, 0.0), vec3f(0.81649658, 0.40824829, 0.40824829), vec3f(0.66666667, 0.66666667, 0.33333333));
+
+const BORDER: f32 = 0.03;
+
+const CLEARANCE: f32 = 4.0;
+
+const DEPTH_OFFSET: f32 = 1.0;
+
 const DRAW_ALPHA_BLEND: u32 = 4u;
 
 const DRAW_ALPHA_MASK: u32 = 2u;
+
+const DRAW_MIRRORED: u32 = 8u;
 
 const DRAW_UNLIT: u32 = 1u;
 
@@ -65,6 +90,28 @@ const FRAME_LINEAR_BLEND: u32 = 1u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const GAP: f32 = 0.03;
+
+const GRAZING: f32 = 0.35;
+
+const HATCH_BY_LIGHT: u32 = 1u;
+
+const HATCH_DOTS: u32 = 6u;
+
+const HATCH_FIXED: u32 = 2u;
+
+const HATCH_IMAGE: u32 = 7u;
+
+const HATCH_ON_SURFACE: u32 = 0u;
+
+const HATCH_ON_UV: u32 = 1u;
+
+const HATCH_PENCIL: u32 = 5u;
+
+const HATCH_SOLID: u32 = 3u;
+
+const HATCH_STIPPLE: u32 = 4u;
+
 const HIGHLIGHT_IN_LIGHT: u32 = 4u;
 
 const HIGHLIGHT_IN_SHADOW: u32 = 8u;
@@ -75,7 +122,11 @@ const HIGHLIGHT_REPLACES: u32 = 2u;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
+const LIGHT_SKY: u32 = 3u;
+
 const LIGHT_SPOT: u32 = 2u;
+
+const LONGEST_STEP: f32 = 1.5;
 
 const LOOK_BASE_FIXED: u32 = 4u;
 
@@ -85,15 +136,31 @@ const LOOK_RAMP_IMAGE: u32 = 2u;
 
 const LOOK_SMOOTH_RAMP: u32 = 1u;
 
+const LOOK_UNSHADOWED: u32 = 16u;
+
+const MAX_CLEARANCE: f32 = 200.0;
+
+const MAX_SLOPE: f32 = 12.0;
+
+const MAX_STEPS: f32 = 6.0;
+
 const METHOD_RIM: u32 = 4u;
 
 const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
+const OUTPUT_BASE: u32 = 3u;
+
 const OUTPUT_COORDINATES: u32 = 2u;
 
 const OUTPUT_HIGHLIGHT: u32 = 1u;
+
+const OUTPUT_PICTURE: u32 = 0u;
+
+const OUTPUT_SHADOW: u32 = 5u;
+
+const OUTPUT_TONE: u32 = 4u;
 
 const RULE_BASE_COLOR: u32 = 1u;
 
@@ -101,7 +168,15 @@ const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
 
+const TAPER: f32 = 0.22;
+
 const TAU: f32 = 6.2831853;
+
+struct Axes {
+    best: vec3f,
+    second: vec3f,
+    lead: f32
+}
 
 struct Detect {
     depth: f32,
@@ -128,7 +203,21 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    rest_scale: f32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
+}
+
+struct Footing {
+    at: vec2f,
+    bound: f32,
+    slope: vec2f,
+    softness: f32,
+    px: vec2f,
+    py: vec2f,
+    is_inside: bool
 }
 
 struct Frame {
@@ -159,6 +248,85 @@ struct Frame {
     reserved_1: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
+}
+
+struct Frames {
+    along: vec3f,
+    across: vec3f,
+    right: vec3f,
+    up: vec3f
+}
+
+struct Hand {
+    shift: f32,
+    weight: f32,
+    gap: f32
+}
+
+struct Hatch {
+    color: vec4f,
+    tones: array<vec4f, 8>,
+    axis: vec4f,
+    turn: vec2f,
+    cross_turn: vec2f,
+    tone_count: u32,
+    pattern: u32,
+    mapping: u32,
+    direction: u32,
+    threshold: f32,
+    spacing: f32,
+    length: f32,
+    irregularity: f32,
+    cross_below: f32,
+    seed: u32,
+    dot_spacing: f32,
+    base_tone: f32
+}
+
+struct HatchPoint {
+    p_in_world: vec3f,
+    normal: vec3f,
+    direction: vec3f,
+    rest: vec3f,
+    rest_normal: vec3f,
+    rest_direction: vec3f,
+    uv: vec2f,
+    uv_dx: vec2f,
+    uv_dy: vec2f,
+    pixel: vec2f,
+    rest_scale: f32,
+    mirrored: bool
+}
+
+struct HatchedSurface {
+    @invariant @builtin(position)
+    clip: vec4f,
+    @location(0)
+    p_in_world: vec3f,
+    @location(1)
+    normal: vec3f,
+    @location(2)
+    base_uv: vec2f,
+    @location(3)
+    emissive_uv: vec2f,
+    @location(4)
+    id_uv: vec2f,
+    @location(5)
+    color: vec4f,
+    @location(6)
+    line_width: f32,
+    @location(7) @interpolate(flat)
+    draw: u32,
+    @location(8) @interpolate(flat)
+    line_id: u32,
+    @location(9)
+    direction: vec3f,
+    @location(10)
+    rest: vec3f,
+    @location(11)
+    rest_normal: vec3f,
+    @location(12)
+    rest_direction: vec3f
 }
 
 struct Highlight {
@@ -201,9 +369,14 @@ struct Light {
     direction: vec4f,
     factors: vec4f,
     kind: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    shadow_first: u32,
+    shadow_maps: u32,
+    reserved_0: u32
+}
+
+struct LightTerm {
+    term: f32,
+    to_light: vec3f
 }
 
 struct LineSet {
@@ -236,8 +409,9 @@ struct Look {
     rim_threshold: f32,
     rim_softness: f32,
     hull_width_m: f32,
+    shadow_tone: f32,
     reserved_0: u32,
-    reserved_1: u32
+    hatch: Hatch
 }
 
 struct MaterialSample {
@@ -247,9 +421,47 @@ struct MaterialSample {
     look: u32
 }
 
+struct Octave {
+    period: f32,
+    wanted: f32,
+    frac: f32,
+    x: f32,
+    even: f32,
+    odd: f32,
+    far: f32
+}
+
+struct Pen {
+    darkness: f32,
+    irregularity: f32,
+    spacing: f32,
+    length: f32,
+    texel: f32,
+    seed: u32
+}
+
 struct RampColor {
     factor: vec3f,
     added: vec3f
+}
+
+struct Receiver {
+    p_in_world: vec3f,
+    px: vec3f,
+    py: vec3f,
+    face: vec3f,
+    clearance: f32
+}
+
+struct RestInput {
+    @location(8)
+    direction: u32,
+    @location(9)
+    p_at_rest: vec3f,
+    @location(10)
+    normal_at_rest: u32,
+    @location(11)
+    direction_at_rest: u32
 }
 
 struct Rule {
@@ -269,8 +481,19 @@ struct Shaded {
     look: u32,
     t: f32,
     t_width: f32,
+    reach: f32,
     rim: f32,
-    rim_width: f32
+    rim_width: f32,
+    own_tone: f32
+}
+
+struct ShadowMap {
+    clip_from_world: mat4x4f,
+    clip_from_plane: mat4x4f,
+    texels: f32,
+    texel_m: f32,
+    depth_scale: f32,
+    is_perspective: f32
 }
 
 struct Surface {
@@ -325,6 +548,26 @@ struct VertexInput {
     draw: u32
 }
 
+struct Way {
+    at: f32,
+    slope: f32,
+    lead: f32
+}
+
+fn any_across(n: vec3f) -> vec3f {
+    return select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+}
+
+fn axis_along(at: Frames, axis: vec3f) -> vec3f {
+    let u = axis_side(axis);
+    let v = cross(axis, u);
+    return select(v, u, abs(dot(u, at.along)) > abs(dot(v, at.along)));
+}
+
+fn axis_side(axis: vec3f) -> vec3f {
+    return unit(cross(axis, select(vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0), abs(axis.y) > abs(axis.z))));
+}
+
 fn brightest_tone(look: u32, t: f32, width: f32) -> f32 {
     let last = max(looks[look].tone_count, 1u) - 1u;
     let edge = max(max(looks[look].tones[last].softness, width), MIN_WIDTH);
@@ -335,6 +578,12 @@ fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn dot_radius(part: f32) -> f32 {
+    let rest = saturate((1.0 - part) / (1.0 - 0.7853982));
+    let merged = 0.70711 - 0.20711 * (1.1 * sqrt(rest) - 0.02 * rest - 0.08 * rest * rest);
+    return select(sqrt(part * 0.31830989), merged, part > 0.7853982);
 }
 
 fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
@@ -369,11 +618,191 @@ fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
     return select(-unit, unit, front_facing);
 }
 
+fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32, salt: u32) -> f32 {
+    let across = vec2f(-way.y, way.x);
+    let slope = length(vec2f(dot(across, dx), dot(across, dy)));
+    let along = Way(dot(way, p), length(vec2f(dot(way, dx), dot(way, dy))), 1.0);
+    return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec2f(share, 0.0), salt);
+}
+
+fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
+    let face = receiver.face;
+    let is_perspective = shadow_maps[map].is_perspective > 0.5;
+    let p = receiver.p_in_world;
+    let clip = shadow_maps[map].clip_from_world * vec4f(p, 1.0);
+    let texel_m = shadow_maps[map].texel_m * select(1.0, max(clip.w, 0.0), is_perspective);
+    let grazing = 1.0 - smoothstep(0.0, GRAZING, dot(face, to_light));
+    let clearance = min(receiver.clearance * CLEARANCE, MAX_CLEARANCE * texel_m) * grazing;
+    let ndc = clip.xyz / max(clip.w, 1e-12);
+    var depth_per_m = shadow_maps[map].depth_scale;
+    if (is_perspective) {
+        depth_per_m /= max(clip.w * clip.w, 1e-24);
+    }
+    let plane = shadow_maps[map].clip_from_plane * vec4f(face, -dot(face, p));
+    let texels = shadow_maps[map].texels;
+    let c = select(min(plane.z, -1e-12), max(plane.z, 1e-12), plane.z >= 0.0);
+    let most = MAX_SLOPE * texel_m * depth_per_m;
+    let slope = clamp(plane.xy / c * vec2f(-2.0, 2.0) / texels, vec2f(-most), vec2f(most));
+    let cosine = max(dot(face, to_light), 0.0);
+    let tangent = min(sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 0.001), MAX_SLOPE);
+    let bound = ndc.z + depth_per_m * (DEPTH_OFFSET * (1.0 + tangent) * texel_m + clearance);
+    let at = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * texels;
+    let px = place_in_map(map, p + receiver.px) - at;
+    let py = place_in_map(map, p + receiver.py) - at;
+    let is_inside = clip.w > 0.0 && all(abs(ndc.xy) < vec2f(1.0)) && ndc.z < 1.0;
+    return Footing(at, bound, slope, depth_per_m * texel_m, px, py, is_inside);
+}
+
 fn footprint(frame: Frame, distance: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return frame.pixel_footprint;
     }
     return frame.pixel_footprint * distance;
+}
+
+fn frames(look: u32, point: HatchPoint) -> Frames {
+    let n = point.normal;
+    let rest_n = unit(point.rest_normal);
+    var d = point.direction - n * dot(n, point.direction);
+    d = unit(select(any_across(n) - n * dot(n, any_across(n)), d, dot(d, d) > 1e-8));
+    var rest_d = point.rest_direction - rest_n * dot(rest_n, point.rest_direction);
+    rest_d = unit(select(any_across(rest_n) - rest_n * dot(rest_n, any_across(rest_n)), rest_d, dot(rest_d, rest_d) > 1e-8));
+    let b = cross(n, d) * select(1.0, -1.0, point.mirrored);
+    let rest_b = cross(rest_n, rest_d);
+    let orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    let from_eye = select(point.p_in_world - frame.eye.xyz, -frame.eye.xyz, orthographic);
+    let depth = max(-dot(from_eye, frame.camera_back.xyz), 1e-20);
+    let view = from_eye / depth;
+    let size = frame.pixel_footprint * select(depth, 1.0, orthographic) * point.rest_scale;
+    let facing = dot(n, view);
+    let least = 0.15 * length(view);
+    let slant = view / select(min(facing, -least), max(facing, least), facing > 0.0);
+    let right = size * (frame.camera_right.xyz - slant * dot(n, frame.camera_right.xyz));
+    let up = size * (frame.camera_up.xyz - slant * dot(n, frame.camera_up.xyz));
+    var way = vec2f(1.0, 0.0);
+    let kind = looks[look].hatch.direction;
+    if (kind == HATCH_BY_LIGHT) {
+        var to_light = vec3f(0.0);
+        for (var i = 0u; i < frame.light_count; i++) {
+            let offset = lights[i].position.xyz - point.p_in_world;
+            to_light += lights[i].factors.x * select(unit(offset), lights[i].direction.xyz, lights[i].kind == 0u);
+        }
+        way = vec2f(dot(d, to_light), dot(b, to_light));
+    }
+    else if (kind == HATCH_FIXED) {
+        let axis = looks[look].hatch.axis.xyz;
+        way = vec2f(dot(rest_d, axis), dot(rest_b, axis));
+    }
+    way *= inverseSqrt(max(dot(way, way), 1e-12));
+    let turn = looks[look].hatch.turn.xy;
+    way = vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
+    return Frames(rest_d * way.x + rest_b * way.y, rest_b * way.x - rest_d * way.y, rest_d * dot(d, right) + rest_b * dot(b, right), rest_d * dot(d, up) + rest_b * dot(b, up));
+}
+
+fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
+    let own = hatch_hash(line, 1e30, seed);
+    let is_second = ways[1].lead + 0.3 * own.x > ways[0].lead;
+    let at = select(ways[0].at, ways[1].at, is_second);
+    let along = octave(at, select(ways[0].slope, ways[1].slope, is_second) * max(pen.length, 1.0));
+    let even = hatch_hash(line, along.even * along.period, seed);
+    let far = hatch_hash(line, along.far * along.period, seed);
+    let odd_own = hatch_hash(line, along.odd * along.period, seed);
+    let odd = mix(odd_own, 0.5 * (even + far), along.frac);
+    let way = abs(along.x - along.even);
+    let smoothed = way * way * (3.0 - 2.0 * way);
+    let both = mix(even.xy, odd.xy, smoothed);
+    let place = vec2f(along.even + 0.42 * even.z, along.odd + 0.42 * odd_own.z);
+    let half_width = vec2f(GAP) + 0.05 * (1.0 + vec2f(even.w, odd_own.w));
+    let distance = abs(vec2f(along.x) - place) - half_width;
+    let open = 1.0 - smoothstep(vec2f(0.0), vec2f(TAPER), distance);
+    return Hand(both.x, 0.6 * both.y + 0.5 * own.y, max(open.x, open.y * (1.0 - along.frac)));
+}
+
+fn hatch_hash(line: f32, node: f32, seed: u32) -> vec4f {
+    let a = select(bitcast<u32>(line), 0u, line == 0.0);
+    let b = select(bitcast<u32>(node), 0u, node == 0.0);
+    var h = (a * 2654435761u) ^ (((b << 15u) | (b >> 17u)) * 2246822519u) ^ seed;
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return unpack4x8snorm(h);
+}
+
+fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) -> f32 {
+    let pattern = looks[look].hatch.pattern;
+    let own = mix(1.0, own_tone, looks[look].hatch.base_tone);
+    let lum = own * hatch_tone(look, t, t_width);
+    let threshold = looks[look].hatch.threshold;
+    let darkness = threshold + 1.0 - 2.0 * lum;
+    var pen = Pen(darkness, looks[look].hatch.irregularity, looks[look].hatch.spacing * frame.line_scale, looks[look].hatch.length * frame.line_scale, 1.0 / frame.paint_scale, looks[look].hatch.seed);
+    if (HATCH_HAS_PENCIL && pattern == HATCH_PENCIL) {
+        pen.texel = max(pen.texel, 0.4 * pen.spacing);
+    }
+    var ink = 0.0;
+    if (HATCH_HAS_STROKES) {
+        let cross_turn = looks[look].hatch.cross_turn;
+        var crossed = 0.0;
+        if (HATCH_HAS_CROSS) {
+            crossed = 0.5 * smoothstep(0.0, 0.12, looks[look].hatch.cross_below - lum);
+        }
+        if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
+            let at = frames(look, point);
+            ink = surface_strokes(pen, at, point.rest, 1.0 - crossed, 0u);
+            if (HATCH_HAS_CROSS) {
+                let way = Frames(at.along * cross_turn.x + at.across * cross_turn.y, at.across * cross_turn.x - at.along * cross_turn.y, at.right, at.up);
+                let over = surface_strokes(pen, way, point.rest, crossed, 1374496523u);
+                ink = 1.0 - (1.0 - ink) * (1.0 - over);
+            }
+        }
+        if (HATCH_HAS_PLANE && looks[look].hatch.mapping != HATCH_ON_SURFACE) {
+            let on_uv = looks[look].hatch.mapping == HATCH_ON_UV;
+            let p = select(point.pixel, point.uv, on_uv);
+            let dx = select(vec2f(1.0, 0.0), point.uv_dx, on_uv);
+            let dy = select(vec2f(0.0, 1.0), point.uv_dy, on_uv);
+            let way = looks[look].hatch.turn.xy * vec2f(1.0, -1.0);
+            ink = flat_strokes(pen, p, dx, dy, way, 1.0 - crossed, 0u);
+            if (HATCH_HAS_CROSS) {
+                let over = flat_strokes(pen, p, dx, dy, turned_by(way, cross_turn.xy * vec2f(1.0, -1.0)), crossed, 1374496523u);
+                ink = 1.0 - (1.0 - ink) * (1.0 - over);
+            }
+        }
+    }
+    if ((HATCH_HAS_STIPPLE || HATCH_HAS_IMAGE) && (pattern == HATCH_STIPPLE || pattern == HATCH_IMAGE)) {
+        ink = marks(look, pen, point, pattern);
+    }
+    if (HATCH_HAS_DOTS && pattern == HATCH_DOTS) {
+        ink = screen_dots(look, darkness, point.pixel);
+    }
+    if (HATCH_HAS_PENCIL && pattern == HATCH_PENCIL) {
+        let height = paper(point.pixel / frame.line_scale);
+        ink = 0.9 * smoothstep(0.55 * height, 0.55 * height + 0.6, ink);
+    }
+    if (pattern == HATCH_SOLID) {
+        let slope = max(own * abs(hatch_tone(look, t + 0.5 * t_width, t_width) - hatch_tone(look, t - 0.5 * t_width, t_width)), 0.0001);
+        ink = saturate((0.5 * threshold + 0.25 - lum) / slope + 0.5);
+    }
+    return ink;
+}
+
+fn hatch_point(in: HatchedSurface) -> HatchPoint {
+    return HatchPoint(in.p_in_world, unit(in.normal), in.direction, in.rest, in.rest_normal, in.rest_direction, in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[in.draw].rest_scale, (draws[in.draw].flags & DRAW_MIRRORED) != 0u);
+}
+
+fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
+    var at = looks[look].hatch.tones[0].x;
+    var lum = looks[look].hatch.tones[0].y;
+    let count = looks[look].hatch.tone_count;
+    for (var i = 1u; i < count; i++) {
+        let stop = looks[look].hatch.tones[i].xy;
+        lum = mix(lum, stop.y, saturate((t - at) / max(stop.x - at, max(width, 1e-6))));
+        at = stop.x;
+    }
+    return lum;
+}
+
+fn hatched_from_vertex(in: VertexInput, rest: RestInput, texels_per_pixel: f32) -> HatchedSurface {
+    let s = surface_from_vertex(in, texels_per_pixel);
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.line_width, s.draw, s.line_id, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -399,7 +828,7 @@ fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f 
 
 fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
     var left = 1.0;
-    if (HAS_MASK) {
+    if (HAS_TONE) {
         let flags = highlights.items[i].flags;
         if ((flags & HIGHLIGHT_IN_LIGHT) != 0u) {
             left = lit;
@@ -407,11 +836,50 @@ fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
         if ((flags & HIGHLIGHT_IN_SHADOW) != 0u) {
             left = 1.0 - lit;
         }
+    }
+    if (HAS_MASK) {
         let layer = highlights.items[i].mask;
         let drawn = textureSampleLevel(masks, repeated, uv, max(layer, 0), 0.0).x;
         left *= select(1.0, drawn, layer >= 0);
     }
     return left;
+}
+
+fn highlit(in: Surface, front_facing: bool, coverage: vec4f, shaded: Shaded, under: vec4f) -> vec4f {
+    let normal = facing_normal(in, front_facing);
+    let eye = to_eye(frame, in.p_in_world);
+    var color = under;
+    if (OUTPUT == OUTPUT_COORDINATES) {
+        if (HIGHLIGHTS == 0u) {
+            return vec4f(0.0);
+        }
+        let found = drawing_lookup(0u, reflected_view(0u, in.p_in_world, normal, eye));
+        return vec4f(clamp(found, vec3f(-10000.0), vec3f(10000.0)), 1.0);
+    }
+    if (OUTPUT == OUTPUT_HIGHLIGHT) {
+        color = vec4f(0.0);
+    }
+    var lit = 1.0;
+    if (HAS_TONE) {
+        lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
+    }
+    let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
+    if (HIGHLIGHTS > 0u) {
+        color = with_highlight(0u, color, shown * coverage.x * highlight_mask(0u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 1u) {
+        color = with_highlight(1u, color, shown * coverage.y * highlight_mask(1u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 2u) {
+        color = with_highlight(2u, color, shown * coverage.z * highlight_mask(2u, in.id_uv, lit));
+    }
+    if (HIGHLIGHTS > 3u) {
+        color = with_highlight(3u, color, shown * coverage.w * highlight_mask(3u, in.id_uv, lit));
+    }
+    if (OUTPUT == OUTPUT_HIGHLIGHT) {
+        return color;
+    }
+    return with_rim(in, shaded, color);
 }
 
 fn hsv_from_rgb(c: vec3f) -> vec3f {
@@ -437,15 +905,65 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
     return vec3f(hue, range / max(high, 1e-6), high);
 }
 
+fn image_ink(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f) -> f32 {
+    let step = 0.5 * (length(vec2f(dx.x, dy.x)) + length(vec2f(dx.y, dy.y)));
+    let rho = clamp(log2(max(step * pen.spacing, 1e-30)), -60.0, 60.0);
+    let m = floor(rho);
+    let period = exp2(m);
+    let size = f32(textureDimensions(hatch_image).x);
+    let level = max(log2(size * step * pen.texel / period), 0.0);
+    let s = image_profile(p, period, rho - m, level);
+    let s_x = image_profile(p + dx * pen.texel, period, rho - m, level);
+    let s_y = image_profile(p + dy * pen.texel, period, rho - m, level);
+    let slope = max(max(abs(s_x - s), abs(s_y - s)), 0.02);
+    return saturate((pen.darkness - s) / slope + 0.5) * saturate(pen.darkness * 16.0);
+}
+
+fn image_profile(p: vec2f, period: f32, frac: f32, level: f32) -> f32 {
+    let fine = textureSampleLevel(hatch_image, hatch_sampler, p / period, level).r;
+    let coarse = textureSampleLevel(hatch_image, hatch_sampler, p / (2.0 * period), level + 1.0).r;
+    let gain = inverseSqrt(frac * frac + (1.0 - frac) * (1.0 - frac));
+    return saturate(0.5 + (mix(fine, coarse, frac) - 0.5) * gain);
+}
+
+fn inked(shaded: Shaded, point: HatchPoint, draw: u32) -> vec4f {
+    let ink = hatch_ink(shaded.look, shaded.t, shaded.t_width, shaded.own_tone, point);
+    let shown = select(1.0, 0.0, (draws[draw].flags & DRAW_UNLIT) != 0u);
+    return with_ink(shaded.color, looks[shaded.look].hatch.color, shown * ink);
+}
+
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
     return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
+    if (lights[light].shadow_maps == 0u) {
+        return 1.0;
+    }
+    let map = map_of(light, receiver.p_in_world);
+    let footing = footing_of(map, receiver, to_light);
+    if (!footing.is_inside) {
+        return 1.0;
+    }
+    let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
+    let long = select(footing.py, footing.px, is_wide);
+    let short = select(footing.px, footing.py, is_wide);
+    let count = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    var sum = 0.0;
+    for (var i = 0.5; i < count; i += 1.0) {
+        let step = long * (i / count - 0.5);
+        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
+        let width = length(vec2f(dot(lit.yz, long) / count, dot(lit.yz, short)));
+        sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
+    }
+    return sum / count;
+}
+
+fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return factors.x * dot(normal, direction);
+    if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
+        return LightTerm(dot(normal, direction), direction);
     }
     let offset = light.position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
@@ -459,13 +977,40 @@ fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
     let low = c / 12.92;
     let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
     return select(high, low, c <= vec3f(0.04045));
+}
+
+fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f, softness: f32) -> vec3f {
+    let corner = floor(at - 0.5) + 1.0;
+    let f = at + 0.5 - corner;
+    let wx = spline_weights(f.x);
+    let wy = spline_weights(f.y);
+    let sx = spline_slopes(f.x);
+    let sy = spline_slopes(f.y);
+    let dx = (vec4f(-1.5, -0.5, 0.5, 1.5) + (corner.x - at.x)) * slope.x;
+    let dy = (vec4f(-1.5, -0.5, 0.5, 1.5) + (corner.y - at.y)) * slope.y;
+    let size = vec2f(textureDimensions(shadow_depths));
+    var lit = vec3f(0.0);
+    for (var i = 0u; i < 4u; i++) {
+        let right = (i & 1u) != 0u;
+        let below = (i & 2u) != 0u;
+        let place = corner + vec2f(select(-1.0, 1.0, right), select(-1.0, 1.0, below));
+        let d = textureGather(shadow_depths, nearest, place / size, map);
+        let vx = select(wx.xyyx, wx.zwwz, right);
+        let vy = select(wy.yyxx, wy.wwzz, below);
+        let ux = select(sx.xyyx, sx.zwwz, right);
+        let uy = select(sy.yyxx, sy.wwzz, below);
+        let bounds = bound + select(dx.xyyx, dx.zwwz, right) + select(dy.yyxx, dy.wwzz, below);
+        let free = saturate(1.0 - (d - bounds) / max(softness, 1e-30));
+        lit += vec3f(dot(free, vx * vy), dot(free, ux * vy), dot(free, vx * uy));
+    }
+    return lit;
 }
 
 fn look_index(in: Surface, base: vec3f) -> u32 {
@@ -480,6 +1025,22 @@ fn look_index(in: Surface, base: vec3f) -> u32 {
     return draws[in.draw].look_first + combination;
 }
 
+fn map_of(light: u32, p_in_world: vec3f) -> u32 {
+    let first = lights[light].shadow_first;
+    if (lights[light].shadow_maps == 1u) {
+        return first;
+    }
+    let d = p_in_world - lights[light].position.xyz;
+    let a = abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+        return first + select(1u, 0u, d.x >= 0.0);
+    }
+    if (a.y >= a.z) {
+        return first + select(3u, 2u, d.y >= 0.0);
+    }
+    return first + select(5u, 4u, d.z >= 0.0);
+}
+
 fn mapped_normal(i: u32, in_node: vec3f) -> vec3f {
     let sum = max(abs(in_node.x) + abs(in_node.y) + abs(in_node.z), 1e-30);
     var o = in_node.xy / sum;
@@ -489,6 +1050,42 @@ fn mapped_normal(i: u32, in_node: vec3f) -> vec3f {
     let uv = ((o * 0.5 + 0.5) * NORMAL_MAP_SIZE + 1.0) / (NORMAL_MAP_SIZE + 2.0);
     let n = textureSampleLevel(normal_maps, clamped, uv, highlights.items[i].normal_map, 0.0).xyz;
     return highlights.items[i].normals_x.xyz * n.x + highlights.items[i].normals_y.xyz * n.y + highlights.items[i].normals_z.xyz * n.z;
+}
+
+fn marks(look: u32, pen: Pen, point: HatchPoint, pattern: u32) -> f32 {
+    var ink = 0.0;
+    if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
+        let at = frames(look, point);
+        let axes = nearest_axes(at.across);
+        let along = axis_along(at, axes.best);
+        let p = vec2f(dot(along, point.rest), dot(axes.best, point.rest));
+        let dx = vec2f(dot(along, at.right), dot(axes.best, at.right));
+        let dy = vec2f(dot(along, at.up), dot(axes.best, at.up));
+        if (HATCH_HAS_STIPPLE && pattern == HATCH_STIPPLE) {
+            ink = points(pen, p.y, p.x, vec2f(length(vec2f(dx.y, dy.y)), length(vec2f(dx.x, dy.x))), 1.0, 0u);
+        }
+        if (HATCH_HAS_IMAGE && pattern == HATCH_IMAGE) {
+            ink = image_ink(pen, p, dx, dy);
+        }
+    }
+    if (HATCH_HAS_PLANE && looks[look].hatch.mapping != HATCH_ON_SURFACE) {
+        let on_uv = looks[look].hatch.mapping == HATCH_ON_UV;
+        let turn = looks[look].hatch.turn * vec2f(1.0, -1.0);
+        let side = vec2f(-turn.y, turn.x);
+        let at = select(point.pixel, point.uv, on_uv);
+        let right = select(vec2f(1.0, 0.0), point.uv_dx, on_uv);
+        let down = select(vec2f(0.0, 1.0), point.uv_dy, on_uv);
+        let p = vec2f(dot(turn, at), dot(side, at));
+        let dx = vec2f(dot(turn, right), dot(side, right));
+        let dy = vec2f(dot(turn, down), dot(side, down));
+        if (HATCH_HAS_STIPPLE && pattern == HATCH_STIPPLE) {
+            ink = points(pen, p.y, p.x, vec2f(length(vec2f(dx.y, dy.y)), length(vec2f(dx.x, dy.x))), 1.0, 0u);
+        }
+        if (HATCH_HAS_IMAGE && pattern == HATCH_IMAGE) {
+            ink = image_ink(pen, p, dx, dy);
+        }
+    }
+    return ink;
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
@@ -504,6 +1101,35 @@ fn material_sample(in: Surface) -> MaterialSample {
         emissive *= linear_from_display(glow.rgb);
     }
     return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
+}
+
+fn nearest_axes(x: vec3f) -> Axes {
+    let m = abs(x);
+    let s = select(vec3f(-1.0), vec3f(1.0), x >= vec3f(0.0));
+    let x_first = m.x >= m.y && m.x >= m.z;
+    let y_first = !x_first && m.y >= m.z;
+    let first = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), y_first), vec3f(1.0, 0.0, 0.0), x_first);
+    let rest = m - 2.0 * first;
+    let x_second = rest.x >= rest.y && rest.x >= rest.z;
+    let y_second = !x_second && rest.y >= rest.z;
+    let second = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), y_second), vec3f(1.0, 0.0, 0.0), x_second);
+    let third = 1.0 - first - second;
+    let sorted = vec3f(dot(m, first), dot(m, second), dot(m, third));
+    var best = AXES[0];
+    var next = AXES[1];
+    var best_dot = -1.0;
+    var next_dot = -1.0;
+    for (var i = 0u; i < 6u; i++) {
+        let axis = AXES[i];
+        let nearness = dot(sorted, axis);
+        let leads = nearness > best_dot;
+        let follows = nearness > next_dot;
+        next = select(select(next, axis, follows), best, leads);
+        next_dot = select(select(next_dot, nearness, follows), best_dot, leads);
+        best = select(best, axis, leads);
+        best_dot = select(best_dot, nearness, leads);
+    }
+    return Axes(signed_axis(s * (first * best.x + second * best.y + third * best.z)), signed_axis(s * (first * next.x + second * next.y + third * next.z)), best_dot - next_dot);
 }
 
 fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
@@ -522,9 +1148,70 @@ fn octahedral_unpack(bits: u32) -> vec3f {
     return normalize(n);
 }
 
+fn octave(x: f32, wanted: f32) -> Octave {
+    let rho = clamp(log2(max(wanted, 1e-30)), -60.0, 60.0);
+    let m = floor(rho);
+    let period = exp2(m);
+    let scaled = clamp(x / period, -8000000.0, 8000000.0);
+    let even = 2.0 * round(0.5 * scaled);
+    let side = select(-1.0, 1.0, scaled >= even);
+    return Octave(period, wanted, rho - m, scaled, even, even + side, even + 2.0 * side);
+}
+
+fn paper(pixel: vec2f) -> f32 {
+    var height = 0.0;
+    for (var i = 0u; i < 2u; i++) {
+        let p = pixel * select(0.37, 0.83, i == 1u);
+        let cell = floor(p);
+        let part = p - cell;
+        let w = part * part * (3.0 - 2.0 * part);
+        let top = mix(hatch_hash(cell.x, cell.y, i).x, hatch_hash(cell.x + 1.0, cell.y, i).x, w.x);
+        let bottom = mix(hatch_hash(cell.x, cell.y + 1.0, i).x, hatch_hash(cell.x + 1.0, cell.y + 1.0, i).x, w.x);
+        height += mix(top, bottom, w.y);
+    }
+    return saturate(0.5 + 0.45 * height);
+}
+
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn place_in_map(map: u32, p_in_world: vec3f) -> vec2f {
+    let clip = shadow_maps[map].clip_from_world * vec4f(p_in_world, 1.0);
+    return (clip.xy / max(clip.w, 1e-12) * vec2f(0.5, -0.5) + 0.5) * shadow_maps[map].texels;
+}
+
+fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, salt: u32) -> f32 {
+    let slope = length(vec2f(dot(axis, at.right), dot(axis, at.up)));
+    let u = axis_side(axis);
+    let ways = array(way_along(u, at, rest), way_along(cross(axis, u), at, rest));
+    return strokes(pen, dot(axis, rest), slope, ways, share, salt ^ bitcast<u32>(dot(axis, vec3f(1.0, 3.0, 9.0))));
+}
+
+fn points(pen: Pen, across: f32, along: f32, slopes: vec2f, share: f32, salt: u32) -> f32 {
+    let x = octave(across, slopes.x * pen.spacing);
+    let y = octave(along, slopes.y * pen.spacing);
+    let seed = pen.seed ^ salt ^ 2146121005u;
+    let grown_x = 2.0 * vec2f(exp2(x.frac - 1.0), 1.0 - exp2(x.frac - 1.0));
+    let grown_y = 2.0 * vec2f(exp2(y.frac - 1.0), 1.0 - exp2(y.frac - 1.0));
+    let size = vec2f(exp2(x.frac), exp2(y.frac)) / pen.spacing;
+    let scale = 1.0 / size;
+    let tone = saturate(pen.darkness);
+    let area = share * tone * (1.0 + 0.35 * tone) * scale.x * scale.y;
+    var ink = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let odd_x = (i & 1u) != 0u;
+        let odd_y = (i & 2u) != 0u;
+        let node = vec2f(select(x.even, x.odd, odd_x), select(y.even, y.odd, odd_y));
+        let own = hatch_hash(node.x * x.period, node.y * y.period, seed);
+        let place = node + (0.1 + 0.32 * pen.irregularity) * own.xy;
+        let d = length((vec2f(x.x, y.x) - place) * scale);
+        let grown = select(grown_x.x, grown_x.y, odd_x) * select(grown_y.x, grown_y.y, odd_y);
+        let radius = sqrt(area * grown * 0.3183 * (1.0 + 0.6 * pen.irregularity * own.z));
+        ink = max(ink, saturate((radius - d) / pen.texel + 0.5) * saturate(2.0 * radius / pen.texel));
+    }
+    return max(ink, saturate((pen.darkness - 1.0) * 8.0));
 }
 
 fn proxy_normal(i: u32, p_in_world: vec3f) -> vec3f {
@@ -572,12 +1259,30 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
     return result;
 }
 
+fn ramp_coordinate(sum: f32, gain: f32, bias: f32) -> f32 {
+    return saturate(0.5 + 0.5 * clamp(sum * gain, -1.0, 1.0) + bias);
+}
+
 fn ramp_picture(row: u32, t: f32) -> vec3f {
     let width = textureDimensions(ramp_pictures).x;
     let x = clamp(t * f32(width) - 0.5, 0.0, f32(width - 1u));
     let left = u32(floor(x));
     let right = min(left + 1u, width - 1u);
     return mix(textureLoad(ramp_pictures, vec2u(left, row), 0).rgb, textureLoad(ramp_pictures, vec2u(right, row), 0).rgb, x - floor(x));
+}
+
+fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
+    let px = dpdx(p_in_world);
+    let py = dpdy(p_in_world);
+    let across = cross(px, py);
+    let area = dot(across, across);
+    var face = select(normal, across * inverseSqrt(max(area, 1e-38)), area > 1e-38);
+    face = select(-face, face, dot(face, normal) >= 0.0);
+    let nx = dpdx(normal);
+    let ny = dpdy(normal);
+    let radius = sqrt((dot(px, px) + dot(py, py)) / max(dot(nx, nx) + dot(ny, ny), 1e-12));
+    let angle = max(length(normal - face) - 0.01, 0.0);
+    return Receiver(p_in_world, px, py, face, angle * radius);
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -611,6 +1316,17 @@ fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
     return holds;
 }
 
+fn screen_dots(look: u32, darkness: f32, pixel: vec2f) -> f32 {
+    let cell = max(looks[look].hatch.dot_spacing * frame.picture_size.y, 1.5);
+    let turn = looks[look].hatch.turn;
+    let q = vec2f(dot(pixel, vec2f(turn.x, -turn.y)), dot(pixel, vec2f(turn.y, turn.x))) / cell;
+    let part = saturate(darkness);
+    let radius = dot_radius(part);
+    let texel = 1.0 / (frame.paint_scale * cell);
+    let d = length(q - round(q));
+    return saturate((radius - d) / texel + 0.5) * saturate(part * 50.0);
+}
+
 fn shade(in: Surface, front_facing: bool) -> Shaded {
     let material = material_sample(in);
     let draw_flags = draws[in.draw].flags;
@@ -619,8 +1335,19 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let look_flags = looks[look_index].flags;
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
-    for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(lights[i], in.p_in_world, normal);
+    var terms: array<vec2f, 16>;
+    if (SHADOWS) {
+        let receiver = receiver_at(in.p_in_world, normal);
+        for (var i = 0u; i < frame.light_count; i++) {
+            let light = light_term(lights[i], in.p_in_world, normal);
+            sum += lights[i].factors.x * light.term;
+            terms[i] = vec2f(light.term, light_reach(i, receiver, light.to_light));
+        }
+    }
+    else {
+        for (var i = 0u; i < frame.light_count; i++) {
+            sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        }
     }
     let sum_width = fwidth(sum);
     var rim = 0.0;
@@ -633,8 +1360,40 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         discard;
     }
     let gain = looks[look_index].gain;
-    let t = saturate(0.5 + 0.5 * clamp(sum * gain, -1.0, 1.0) + looks[look_index].shade_bias);
-    let t_width = 0.5 * gain * sum_width;
+    let bias = looks[look_index].shade_bias;
+    let t_free = ramp_coordinate(sum, gain, bias);
+    let free_width = 0.5 * gain * sum_width;
+    var t = t_free;
+    var t_width = free_width;
+    var t_lit = t_free;
+    var t_dark = t_free;
+    var lit = 1.0;
+    var reach = 1.0;
+    if (SHADOWS) {
+        if ((look_flags & LOOK_UNSHADOWED) == 0u) {
+            let tone = looks[look_index].shadow_tone;
+            let cap = (2.0 * (tone - bias) - 1.0) / max(gain, 1e-6);
+            var mixed = 0.0;
+            var upper = 0.0;
+            var lower = 0.0;
+            reach = 0.0;
+            for (var i = 0u; i < frame.light_count; i++) {
+                let weight = lights[i].factors.x;
+                let term = terms[i].x;
+                let reached = terms[i].y;
+                let capped = min(term, cap);
+                mixed += weight * mix(capped, term, reached);
+                upper += weight * select(capped, term, reached > 0.0);
+                lower += weight * select(term, capped, reached < 1.0);
+                reach += weight * reached;
+            }
+            lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
+            t_lit = ramp_coordinate(upper, gain, bias);
+            t_dark = ramp_coordinate(lower, gain, bias);
+            t = ramp_coordinate(mixed, gain, bias);
+            t_width = select(max(free_width, t_lit - t_dark), free_width, lit <= 0.0 || lit >= 1.0);
+        }
+    }
     var base = material.base;
     if ((look_flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[look_index].fixed_color.rgb;
@@ -642,17 +1401,31 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (linear_blend) {
         base = linear_from_display(base);
     }
+    if (OUTPUT == OUTPUT_TONE) {
+        base = vec3f(1.0);
+    }
     var color = base;
-    if ((draw_flags & DRAW_UNLIT) == 0u) {
+    if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
         if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
-            color = base * ramp_picture(looks[look_index].ramp_row, t);
+            color = base * ramp_picture(looks[look_index].ramp_row, t_lit);
+            if (SHADOWS) {
+                let dark = base * ramp_picture(looks[look_index].ramp_row, t_dark);
+                color = mix(dark, color, lit);
+            }
         }
         else {
-            let ramp = ramp_color(look_index, t, t_width);
+            let ramp = ramp_color(look_index, t_lit, free_width);
             color = base * ramp.factor + ramp.added;
+            if (SHADOWS) {
+                let dark = ramp_color(look_index, t_dark, free_width);
+                color = mix(base * dark.factor + dark.added, color, lit);
+            }
         }
     }
-    if (any(material.emissive > vec3f(0.0))) {
+    if (OUTPUT == OUTPUT_SHADOW) {
+        color = vec3f(reach);
+    }
+    if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
     }
     var alpha = 1.0;
@@ -663,16 +1436,78 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         color = vec3f(0.0);
         alpha = 0.0;
     }
-    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, rim, rim_width);
+    let own_tone = dot(material.base, vec3f(0.299, 0.587, 0.114));
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, rim, rim_width, own_tone);
 }
 
 fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
 }
 
+fn signed_axis(axis: vec3f) -> vec3f {
+    return select(-axis, axis, dot(axis, vec3f(16.0, 4.0, 1.0)) > 0.0);
+}
+
+fn spline_slopes(f: f32) -> vec4f {
+    let g = 1.0 - f;
+    return vec4f(-0.5 * g * g, -2.0 * f + 1.5 * f * f, 2.0 * g - 1.5 * g * g, 0.5 * f * f);
+}
+
+fn spline_weights(f: f32) -> vec4f {
+    let g = 1.0 - f;
+    let f2 = f * f;
+    return vec4f(g * g * g, 4.0 - 6.0 * f2 + 3.0 * f2 * f, 4.0 - 6.0 * g * g + 3.0 * g * g * g, f2 * f) / 6.0;
+}
+
+fn stroke_coverage(d: f32, half_width: f32, texel: f32) -> f32 {
+    let r = 0.5 * texel;
+    return (clamp(abs(d) + half_width, -r, r) - clamp(abs(d) - half_width, -r, r)) / texel;
+}
+
+fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f, salt: u32) -> f32 {
+    let lines = octave(across, slope * pen.spacing);
+    let seed = pen.seed ^ salt;
+    let even = hand(pen, lines.even * lines.period, ways, seed);
+    let odd = hand(pen, lines.odd * lines.period, ways, seed);
+    let shift = vec2f(even.shift, odd.shift);
+    let weight = vec2f(even.weight, odd.weight);
+    let gap = vec2f(even.gap, odd.gap) * select(0.0, 1.0, pen.length > 0.0);
+    let loose = pen.irregularity;
+    let light = saturate(1.0 - pen.darkness);
+    let apart = min(2.5 * light, 1.0);
+    let carried = saturate(share.x + share.y * weight.yx);
+    let darkness = vec2f(pen.darkness) + loose * (apart * (0.15 + 0.55 * light) * (weight - 1.0) - 1.8 * light * light * gap);
+    let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
+    var part = 1.0 - exp2(carried * log2(1.0 - tone));
+    part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
+    let grown = exp2(lines.frac - 1.0);
+    let half_widths = part * vec2f(grown, 1.0 - grown);
+    let moved = 0.16 * loose * exp2(lines.frac) * shift;
+    let d = vec2f(lines.x - lines.even, lines.x - lines.odd) - moved;
+    let texel = pen.texel * exp2(lines.frac) / pen.spacing;
+    return min(stroke_coverage(d.x, half_widths.x, texel) + stroke_coverage(d.y, half_widths.y, texel), 1.0);
+}
+
+fn surface_coverage(in: Surface, front_facing: bool) -> vec4f {
+    return highlight_coverage(in.p_in_world, facing_normal(in, front_facing), to_eye(frame, in.p_in_world));
+}
+
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
     return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+}
+
+fn surface_of(in: HatchedSurface) -> Surface {
+    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.line_width, in.draw, in.line_id);
+}
+
+fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> f32 {
+    let axes = nearest_axes(at.across);
+    let lead = 0.5 * axes.lead / BORDER;
+    let jitter = 0.25 * pen.irregularity;
+    let first = plane_strokes(pen, at, rest, axes.best, share * vec2f(0.5 + lead, jitter), salt);
+    let second = plane_strokes(pen, at, rest, axes.second, share * vec2f(0.5 - lead, jitter), salt);
+    return 1.0 - (1.0 - first) * (1.0 - second);
 }
 
 fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
@@ -694,6 +1529,14 @@ fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
 
+fn turned_by(way: vec2f, turn: vec2f) -> vec2f {
+    return vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
+}
+
+fn unit(v: vec3f) -> vec3f {
+    return v * inverseSqrt(max(dot(v, v), 1e-24));
+}
+
 fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
     if (clip.w > 0.5 * frame.depth_range.x) {
         let pixels = picture_from_clip(frame, clip);
@@ -709,6 +1552,10 @@ fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
     return vec4f(clip.x * scale.x + clip.w * offset.x, clip.y * scale.y - clip.w * offset.y, clip.z, clip.w);
 }
 
+fn way_along(way: vec3f, at: Frames, rest: vec3f) -> Way {
+    return Way(dot(way, rest), length(vec2f(dot(way, at.right), dot(way, at.up))), abs(dot(way, at.along)));
+}
+
 fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
     let color = highlights.items[i].color;
     let strength = color.a * coverage;
@@ -718,6 +1565,11 @@ fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
     }
     let added = min(below.rgb + color.rgb * strength, vec3f(alpha));
     return vec4f(max(below.rgb, added), alpha);
+}
+
+fn with_ink(color: vec4f, ink: vec4f, coverage: f32) -> vec4f {
+    let strength = coverage * ink.a;
+    return vec4f(color.rgb * mix(vec3f(1.0), ink.rgb, strength) + ink.rgb * strength * (1.0 - color.a), color.a + strength * (1.0 - color.a));
 }
 
 fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
@@ -735,43 +1587,27 @@ fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
 }
 
 @fragment
+fn hatched_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let point = hatch_point(in);
+    let surface = surface_of(in);
+    let shaded = shade(surface, front_facing);
+    return with_rim(surface, shaded, inked(shaded, point, in.draw));
+}
+
+@fragment
+fn hatched_highlight_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let point = hatch_point(in);
+    let surface = surface_of(in);
+    let coverage = surface_coverage(surface, front_facing);
+    let shaded = shade(surface, front_facing);
+    return highlit(surface, front_facing, coverage, shaded, inked(shaded, point, in.draw));
+}
+
+@fragment
 fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
-    let normal = facing_normal(in, front_facing);
-    let eye = to_eye(frame, in.p_in_world);
-    let coverage = highlight_coverage(in.p_in_world, normal, eye);
+    let coverage = surface_coverage(in, front_facing);
     let shaded = shade(in, front_facing);
-    var color = shaded.color;
-    if (OUTPUT == OUTPUT_COORDINATES) {
-        if (HIGHLIGHTS == 0u) {
-            return vec4f(0.0);
-        }
-        let found = drawing_lookup(0u, reflected_view(0u, in.p_in_world, normal, eye));
-        return vec4f(clamp(found, vec3f(-10000.0), vec3f(10000.0)), 1.0);
-    }
-    if (OUTPUT == OUTPUT_HIGHLIGHT) {
-        color = vec4f(0.0);
-    }
-    var lit = 1.0;
-    if (HAS_MASK) {
-        lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
-    }
-    let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
-    if (HIGHLIGHTS > 0u) {
-        color = with_highlight(0u, color, shown * coverage.x * highlight_mask(0u, in.id_uv, lit));
-    }
-    if (HIGHLIGHTS > 1u) {
-        color = with_highlight(1u, color, shown * coverage.y * highlight_mask(1u, in.id_uv, lit));
-    }
-    if (HIGHLIGHTS > 2u) {
-        color = with_highlight(2u, color, shown * coverage.z * highlight_mask(2u, in.id_uv, lit));
-    }
-    if (HIGHLIGHTS > 3u) {
-        color = with_highlight(3u, color, shown * coverage.w * highlight_mask(3u, in.id_uv, lit));
-    }
-    if (OUTPUT == OUTPUT_HIGHLIGHT) {
-        return color;
-    }
-    return with_rim(in, shaded, color);
+    return highlit(in, front_facing, coverage, shaded, shaded.color);
 }
 
 @fragment
@@ -786,7 +1622,15 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let shaded = shade(in, front_facing);
+    if (OUTPUT != OUTPUT_PICTURE) {
+        return shaded.color;
+    }
     return with_rim(in, shaded, shaded.color);
+}
+
+@vertex
+fn hatched_vertex(in: VertexInput, rest: RestInput) -> HatchedSurface {
+    return hatched_from_vertex(in, rest, frame.paint_scale);
 }
 
 @vertex
@@ -830,6 +1674,24 @@ override HAS_MATRIX: bool = false;
 
 override HAS_NORMAL_MAP: bool = false;
 
+override HAS_TONE: bool = false;
+
+override HATCH_HAS_CROSS: bool = false;
+
+override HATCH_HAS_DOTS: bool = false;
+
+override HATCH_HAS_IMAGE: bool = false;
+
+override HATCH_HAS_PENCIL: bool = false;
+
+override HATCH_HAS_PLANE: bool = false;
+
+override HATCH_HAS_STIPPLE: bool = false;
+
+override HATCH_HAS_STROKES: bool = false;
+
+override HATCH_HAS_SURFACE: bool = false;
+
 override HIGHLIGHTS: u32 = 0u;
 
 override IS_RESHAPED: bool = false;
@@ -839,5 +1701,7 @@ override ON_PANORAMA: bool = false;
 override OUTPUT: u32 = 0u;
 
 override REPLACES: bool = false;
+
+override SHADOWS: bool = false;
 
 override SHARE_PROXY: bool = false;

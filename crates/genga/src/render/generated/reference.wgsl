@@ -59,7 +59,11 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    rest_scale: f32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Frame {
@@ -142,7 +146,8 @@ struct WorldVertex {
     z: f32,
     normal: u32,
     smooth_normal: u32,
-    line: u32
+    line: u32,
+    hatch: u32
 }
 
 fn facing_vector(frame: Frame, p_in_world: vec3f) -> vec3f {

@@ -131,9 +131,13 @@ pub(crate) struct Draw {
     pub(crate) flags: u32,
     pub(crate) alpha_cutoff: f32,
     pub(crate) line_width: f32,
+    pub(crate) rest_scale: f32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Draw > () == 128, "size of Draw does not match WGSL"
+    std::mem::size_of::< Draw > () == 144, "size of Draw does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Draw, base_color) == 0,
@@ -189,6 +193,22 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Draw, line_width) == 124,
     "offset of Draw.line_width does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, rest_scale) == 128,
+    "offset of Draw.rest_scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_0) == 132,
+    "offset of Draw.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_1) == 136,
+    "offset of Draw.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_2) == 140,
+    "offset of Draw.reserved_2 does not match WGSL"
 );
 pub(crate) const EDGE_FLAT: u32 = 268435456u32;
 pub(crate) const EDGE_HARD: u32 = 1073741824u32;
@@ -397,10 +417,110 @@ const _: () = assert!(
     std::mem::offset_of!(Glow, reserved_1) == 108,
     "offset of Glow.reserved_1 does not match WGSL"
 );
+pub(crate) const HATCH_BY_LIGHT: u32 = 1u32;
+pub(crate) const HATCH_CROSS: u32 = 2u32;
+pub(crate) const HATCH_DOTS: u32 = 6u32;
+pub(crate) const HATCH_FIXED: u32 = 2u32;
+pub(crate) const HATCH_IMAGE: u32 = 7u32;
+pub(crate) const HATCH_NONE: u32 = 0u32;
+pub(crate) const HATCH_ON_SCREEN: u32 = 2u32;
+pub(crate) const HATCH_ON_SURFACE: u32 = 0u32;
+pub(crate) const HATCH_ON_UV: u32 = 1u32;
+pub(crate) const HATCH_PENCIL: u32 = 5u32;
+pub(crate) const HATCH_SOLID: u32 = 3u32;
+pub(crate) const HATCH_STIPPLE: u32 = 4u32;
+pub(crate) const HATCH_STROKES: u32 = 1u32;
 pub(crate) const HIGHLIGHT_IN_LIGHT: u32 = 4u32;
 pub(crate) const HIGHLIGHT_IN_SHADOW: u32 = 8u32;
 pub(crate) const HIGHLIGHT_ON_PANORAMA: u32 = 1u32;
 pub(crate) const HIGHLIGHT_REPLACES: u32 = 2u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Hatch {
+    pub(crate) color: glam::Vec4,
+    pub(crate) tones: [glam::Vec4; 8],
+    pub(crate) axis: glam::Vec4,
+    pub(crate) turn: glam::Vec2,
+    pub(crate) cross_turn: glam::Vec2,
+    pub(crate) tone_count: u32,
+    pub(crate) pattern: u32,
+    pub(crate) mapping: u32,
+    pub(crate) direction: u32,
+    pub(crate) threshold: f32,
+    pub(crate) spacing: f32,
+    pub(crate) length: f32,
+    pub(crate) irregularity: f32,
+    pub(crate) cross_below: f32,
+    pub(crate) seed: u32,
+    pub(crate) dot_spacing: f32,
+    pub(crate) base_tone: f32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Hatch > () == 224, "size of Hatch does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, color) == 0, "offset of Hatch.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, tones) == 16, "offset of Hatch.tones does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, axis) == 144, "offset of Hatch.axis does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, turn) == 160, "offset of Hatch.turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, cross_turn) == 168,
+    "offset of Hatch.cross_turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, tone_count) == 176,
+    "offset of Hatch.tone_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, pattern) == 180,
+    "offset of Hatch.pattern does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, mapping) == 184,
+    "offset of Hatch.mapping does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, direction) == 188,
+    "offset of Hatch.direction does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, threshold) == 192,
+    "offset of Hatch.threshold does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, spacing) == 196,
+    "offset of Hatch.spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, length) == 200,
+    "offset of Hatch.length does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, irregularity) == 204,
+    "offset of Hatch.irregularity does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, cross_below) == 208,
+    "offset of Hatch.cross_below does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, seed) == 212, "offset of Hatch.seed does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, dot_spacing) == 216,
+    "offset of Hatch.dot_spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Hatch, base_tone) == 220,
+    "offset of Hatch.base_tone does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Highlight {
@@ -531,6 +651,7 @@ pub(crate) const ID_SETS_SHIFT: u32 = 24u32;
 pub(crate) const ID_THROUGH_SHIFT: u32 = 28u32;
 pub(crate) const LIGHT_DIRECTIONAL: u32 = 0u32;
 pub(crate) const LIGHT_POINT: u32 = 1u32;
+pub(crate) const LIGHT_SKY: u32 = 3u32;
 pub(crate) const LIGHT_SPOT: u32 = 2u32;
 pub(crate) const LINE_BORDER: u32 = 16u32;
 pub(crate) const LINE_CREASE: u32 = 2u32;
@@ -543,6 +664,7 @@ pub(crate) const LOOK_BASE_FIXED: u32 = 4u32;
 pub(crate) const LOOK_BASE_NONE: u32 = 8u32;
 pub(crate) const LOOK_RAMP_IMAGE: u32 = 2u32;
 pub(crate) const LOOK_SMOOTH_RAMP: u32 = 1u32;
+pub(crate) const LOOK_UNSHADOWED: u32 = 16u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Light {
@@ -550,9 +672,9 @@ pub(crate) struct Light {
     pub(crate) direction: glam::Vec4,
     pub(crate) factors: glam::Vec4,
     pub(crate) kind: u32,
+    pub(crate) shadow_first: u32,
+    pub(crate) shadow_maps: u32,
     pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
     std::mem::size_of::< Light > () == 64, "size of Light does not match WGSL"
@@ -573,16 +695,16 @@ const _: () = assert!(
     std::mem::offset_of!(Light, kind) == 48, "offset of Light.kind does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_0) == 52,
+    std::mem::offset_of!(Light, shadow_first) == 52,
+    "offset of Light.shadow_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Light, shadow_maps) == 56,
+    "offset of Light.shadow_maps does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Light, reserved_0) == 60,
     "offset of Light.reserved_0 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_1) == 56,
-    "offset of Light.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_2) == 60,
-    "offset of Light.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -827,11 +949,12 @@ pub(crate) struct Look {
     pub(crate) rim_threshold: f32,
     pub(crate) rim_softness: f32,
     pub(crate) hull_width_m: f32,
+    pub(crate) shadow_tone: f32,
     pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
+    pub(crate) hatch: Hatch,
 }
 const _: () = assert!(
-    std::mem::size_of::< Look > () == 320, "size of Look does not match WGSL"
+    std::mem::size_of::< Look > () == 544, "size of Look does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Look, fixed_color) == 0,
@@ -879,12 +1002,15 @@ const _: () = assert!(
     "offset of Look.hull_width_m does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_0) == 312,
+    std::mem::offset_of!(Look, shadow_tone) == 312,
+    "offset of Look.shadow_tone does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_0) == 316,
     "offset of Look.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_1) == 316,
-    "offset of Look.reserved_1 does not match WGSL"
+    std::mem::offset_of!(Look, hatch) == 320, "offset of Look.hatch does not match WGSL"
 );
 pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
 pub(crate) const MASK_SILHOUETTE_SHIFT: u32 = 8u32;
@@ -926,7 +1052,7 @@ pub(crate) struct Piece {
     pub(crate) order: u32,
     pub(crate) link_a: u32,
     pub(crate) link_b: u32,
-    pub(crate) reserved: u32,
+    pub(crate) own_step: f32,
 }
 const _: () = assert!(
     std::mem::size_of::< Piece > () == 104, "size of Piece does not match WGSL"
@@ -1019,8 +1145,8 @@ const _: () = assert!(
     "offset of Piece.link_b does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Piece, reserved) == 100,
-    "offset of Piece.reserved does not match WGSL"
+    std::mem::offset_of!(Piece, own_step) == 100,
+    "offset of Piece.own_step does not match WGSL"
 );
 pub(crate) const RULE_BASE_COLOR: u32 = 1u32;
 pub(crate) const RULE_ID_TEXTURE: u32 = 4u32;
@@ -1038,9 +1164,10 @@ pub(crate) struct RestVertex {
     pub(crate) joints_23: u32,
     pub(crate) weights_01: u32,
     pub(crate) weights_23: u32,
+    pub(crate) hatch: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< RestVertex > () == 40, "size of RestVertex does not match WGSL"
+    std::mem::size_of::< RestVertex > () == 44, "size of RestVertex does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(RestVertex, x) == 0,
@@ -1081,6 +1208,10 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(RestVertex, weights_23) == 36,
     "offset of RestVertex.weights_23 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RestVertex, hatch) == 40,
+    "offset of RestVertex.hatch does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1138,6 +1269,43 @@ pub(crate) const SET_COLOR_BASE: u32 = 2u32;
 pub(crate) const SET_COLOR_LIGHT: u32 = 4u32;
 pub(crate) const SET_CURVES: u32 = 256u32;
 pub(crate) const SET_HIDDEN: u32 = 1u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct ShadowMap {
+    pub(crate) clip_from_world: glam::Mat4,
+    pub(crate) clip_from_plane: glam::Mat4,
+    pub(crate) texels: f32,
+    pub(crate) texel_m: f32,
+    pub(crate) depth_scale: f32,
+    pub(crate) is_perspective: f32,
+}
+const _: () = assert!(
+    std::mem::size_of::< ShadowMap > () == 144, "size of ShadowMap does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, clip_from_world) == 0,
+    "offset of ShadowMap.clip_from_world does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, clip_from_plane) == 64,
+    "offset of ShadowMap.clip_from_plane does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, texels) == 128,
+    "offset of ShadowMap.texels does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, texel_m) == 132,
+    "offset of ShadowMap.texel_m does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, depth_scale) == 136,
+    "offset of ShadowMap.depth_scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, is_perspective) == 140,
+    "offset of ShadowMap.is_perspective does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct StrokeRange {
@@ -1585,9 +1753,10 @@ pub(crate) struct WorldVertex {
     pub(crate) normal: u32,
     pub(crate) smooth_normal: u32,
     pub(crate) line: u32,
+    pub(crate) hatch: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< WorldVertex > () == 24,
+    std::mem::size_of::< WorldVertex > () == 28,
     "size of WorldVertex does not match WGSL"
 );
 const _: () = assert!(
@@ -1613,4 +1782,8 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(WorldVertex, line) == 20,
     "offset of WorldVertex.line does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WorldVertex, hatch) == 24,
+    "offset of WorldVertex.hatch does not match WGSL"
 );

@@ -24,6 +24,12 @@ pub(crate) enum PaintOutput {
     Highlights,
     /// Where on its first highlight's drawing each surface lies, and the distance to its outline.
     Coordinates,
+    /// Surfaces before the ramp.
+    Base,
+    /// What the ramp makes of white surfaces.
+    Tone,
+    /// White where lights reach, black in cast shadows.
+    Shadow,
 }
 
 pub(crate) struct PaintPass {
@@ -40,7 +46,12 @@ impl PaintPass {
         };
         Self {
             surfaces: make("paint", module.clone(), ["paint_vertex", "paint_fragment"])
-                .with_highlights(device, layouts, "highlight_fragment"),
+                .with_ink(["hatched_vertex", "hatched_fragment"])
+                .with_highlights(
+                    device,
+                    layouts,
+                    ["highlight_fragment", "hatched_highlight_fragment"],
+                ),
             hulls: make("hull", module, ["hull_vertex", "hull_fragment"]),
         }
     }
@@ -72,7 +83,17 @@ impl PaintPass {
         let [opaque, blended] = sorted_items(prepared, aim.eye);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
-            Variant { highlights, ..Variant::of(item, samples) }
+            let shadows = prepared.shadows.any();
+            let hatch = item.hatch.filter(|_| output_has_ink(output));
+            let output = match output {
+                PaintOutput::All | PaintOutput::Plain => 0,
+                PaintOutput::Highlights => 1,
+                PaintOutput::Coordinates => 2,
+                PaintOutput::Base => 3,
+                PaintOutput::Tone => 4,
+                PaintOutput::Shadow => 5,
+            };
+            Variant { highlights, hatch, shadows, output, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
@@ -92,6 +113,11 @@ impl PaintPass {
     }
 }
 
+/// Whether surfaces are inked.
+fn output_has_ink(output: PaintOutput) -> bool {
+    matches!(output, PaintOutput::All | PaintOutput::Plain)
+}
+
 /// How a draw's pipeline draws highlights.
 fn highlight_variant(
     prepared: &Prepared,
@@ -99,11 +125,9 @@ fn highlight_variant(
     output: PaintOutput,
 ) -> Option<HighlightVariant> {
     let variant = prepared.highlights.variant(item.highlights);
-    let output = match output {
-        PaintOutput::All => return (variant.count > 0).then_some(variant),
-        PaintOutput::Plain => return None,
-        PaintOutput::Highlights => 1,
-        PaintOutput::Coordinates => 2,
-    };
-    Some(HighlightVariant { output, ..variant })
+    match output {
+        PaintOutput::All => (variant.count > 0).then_some(variant),
+        PaintOutput::Highlights | PaintOutput::Coordinates => Some(variant),
+        PaintOutput::Plain | PaintOutput::Base | PaintOutput::Tone | PaintOutput::Shadow => None,
+    }
 }

@@ -6,7 +6,7 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use crate::render::generated::WorldVertex;
+use crate::render::generated::{RestVertex, WorldVertex};
 use crate::render::gpu::bindings::pipeline_layout;
 use crate::render::layouts::Layouts;
 use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes};
@@ -25,6 +25,26 @@ pub(crate) struct Variant {
     pub(crate) samples: u32,
     /// With highlights on top; `None` for a pipeline that knows nothing of them.
     pub(crate) highlights: Option<HighlightVariant>,
+    /// With cast shadows.
+    pub(crate) shadows: bool,
+    /// An `OUTPUT_*` of `paint.wesl`.
+    pub(crate) output: u32,
+    /// With ink over the ramp; `None` for a pipeline that knows nothing of it.
+    pub(crate) hatch: Option<HatchVariant>,
+}
+
+/// What a pipeline with ink is specialised for; see `shaders/shading/hatch.wesl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct HatchVariant {
+    pub(crate) has_strokes: bool,
+    pub(crate) has_cross: bool,
+    pub(crate) has_pencil: bool,
+    pub(crate) has_stipple: bool,
+    pub(crate) has_dots: bool,
+    pub(crate) has_image: bool,
+    /// On surfaces; on texture coordinates or the picture.
+    pub(crate) has_surface: bool,
+    pub(crate) has_plane: bool,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -40,16 +60,24 @@ pub(crate) struct HighlightVariant {
     pub(crate) blends_normals: bool,
     pub(crate) is_reshaped: bool,
     pub(crate) replaces: bool,
+    pub(crate) has_tone: bool,
     pub(crate) has_mask: bool,
-    /// An `OUTPUT_*` of `paint.wesl`.
-    pub(crate) output: u32,
 }
 
 impl Variant {
     /// As the material of a draw asks.
     pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false, samples, highlights: None }
+        Self {
+            mirrored: item.mirrored,
+            cull,
+            blend: false,
+            samples,
+            highlights: None,
+            shadows: false,
+            output: 0,
+            hatch: None,
+        }
     }
 }
 
@@ -60,8 +88,10 @@ pub(crate) struct SurfacePipelines {
     layout: wgpu::PipelineLayout,
     vertex_entry: &'static str,
     fragment_entry: &'static str,
-    /// Layout and fragment stage of the pipelines with highlights.
-    highlit: Option<(wgpu::PipelineLayout, &'static str)>,
+    /// Layout and fragment stages of the pipelines with highlights, without and with ink.
+    highlit: Option<(wgpu::PipelineLayout, [&'static str; 2])>,
+    /// Vertex and fragment stage of the pipelines with ink.
+    hatched: Option<[&'static str; 2]>,
     formats: Vec<wgpu::TextureFormat>,
     made: Mutex<HashMap<Variant, Arc<wgpu::RenderPipeline>>>,
 }
@@ -82,20 +112,28 @@ impl SurfacePipelines {
             vertex_entry,
             fragment_entry,
             highlit: None,
+            hatched: None,
             formats: formats.to_vec(),
             made: Mutex::new(HashMap::new()),
         }
     }
 
-    /// Adds pipelines with highlights, by another fragment stage of the same module.
+    /// Adds pipelines with ink, by other stages of the same module.
+    pub(crate) fn with_ink(mut self, entries: [&'static str; 2]) -> Self {
+        self.hatched = Some(entries);
+        self
+    }
+
+    /// Adds pipelines with highlights, by other fragment stages of the same module: without and
+    /// with ink.
     pub(crate) fn with_highlights(
         mut self,
         device: &wgpu::Device,
         layouts: &Layouts,
-        fragment_entry: &'static str,
+        fragment_entries: [&'static str; 2],
     ) -> Self {
         let groups = [&layouts.surface, &layouts.material, &layouts.highlights];
-        self.highlit = Some((pipeline_layout(device, self.label, &groups), fragment_entry));
+        self.highlit = Some((pipeline_layout(device, self.label, &groups), fragment_entries));
         self
     }
 
@@ -114,13 +152,33 @@ impl SurfacePipelines {
                 Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL })
             })
             .collect();
-        let (layout, fragment_entry) = match (&self.highlit, variant.highlights) {
-            (Some((layout, entry)), Some(_)) => (layout, *entry),
+        let hatched = self.hatched.filter(|_| variant.hatch.is_some());
+        let (layout, fragment_entry) = match (&self.highlit, variant.highlights, hatched) {
+            (Some((layout, entries)), Some(_), hatched) => {
+                (layout, entries[usize::from(hatched.is_some())])
+            }
+            (_, _, Some([_, entry])) => (&self.layout, entry),
             _ => (&self.layout, self.fragment_entry),
         };
+        let vertex_entry = hatched.map_or(self.vertex_entry, |[entry, _]| entry);
+        let hatch = variant.hatch.unwrap_or_default();
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
-        let constants = [
+        let shading = [
+            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("OUTPUT", f64::from(variant.output)),
+        ];
+        let hatch_constants = [
+            ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
+            ("HATCH_HAS_CROSS", yes(hatch.has_cross)),
+            ("HATCH_HAS_PENCIL", yes(hatch.has_pencil)),
+            ("HATCH_HAS_STIPPLE", yes(hatch.has_stipple)),
+            ("HATCH_HAS_DOTS", yes(hatch.has_dots)),
+            ("HATCH_HAS_IMAGE", yes(hatch.has_image)),
+            ("HATCH_HAS_SURFACE", yes(hatch.has_surface)),
+            ("HATCH_HAS_PLANE", yes(hatch.has_plane)),
+        ];
+        let highlight_constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
             ("ON_PANORAMA", yes(highlights.on_panorama)),
             ("SHARE_PROXY", yes(highlights.share_proxy)),
@@ -130,33 +188,26 @@ impl SurfacePipelines {
             ("BLENDS_NORMALS", yes(highlights.blends_normals)),
             ("IS_RESHAPED", yes(highlights.is_reshaped)),
             ("REPLACES", yes(highlights.replaces)),
+            ("HAS_TONE", yes(highlights.has_tone)),
             ("HAS_MASK", yes(highlights.has_mask)),
-            ("OUTPUT", f64::from(highlights.output)),
         ];
-        let constants = if variant.highlights.is_some() { &constants[..] } else { &[] };
+        let mut constants: Vec<(&str, f64)> = Vec::new();
+        if variant.highlights.is_some() {
+            constants.extend(highlight_constants);
+        }
+        if hatched.is_some() {
+            constants.extend(hatch_constants);
+        }
+        // Only the paint pass has these.
+        constants.extend(shading.into_iter().filter(|(_, value)| *value != 0.0));
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(layout),
             vertex: wgpu::VertexState {
                 module: &self.module,
-                entry_point: Some(self.vertex_entry),
+                entry_point: Some(vertex_entry),
                 compilation_options: Default::default(),
-                buffers: &[
-                    wgpu::VertexBufferLayout {
-                        array_stride: size_of::<WorldVertex>() as u64,
-                        step_mode: wgpu::VertexStepMode::Vertex,
-                        attributes: &wgpu::vertex_attr_array![
-                            0 => Float32x3, 1 => Uint32, 2 => Uint32, 3 => Float16x2
-                        ],
-                    },
-                    wgpu::VertexBufferLayout {
-                        array_stride: size_of::<VertexAttributes>() as u64,
-                        step_mode: wgpu::VertexStepMode::Vertex,
-                        attributes: &wgpu::vertex_attr_array![
-                            4 => Float32x2, 5 => Float32x2, 6 => Unorm16x4, 7 => Uint32
-                        ],
-                    },
-                ],
+                buffers: &VERTEX_BUFFERS[..if hatched.is_some() { 3 } else { 2 }],
             },
             primitive: wgpu::PrimitiveState {
                 front_face: if variant.mirrored {
@@ -179,7 +230,7 @@ impl SurfacePipelines {
                 module: &self.module,
                 entry_point: Some(fragment_entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants,
+                    constants: &constants,
                     ..Default::default()
                 },
                 targets: &targets,
@@ -188,6 +239,41 @@ impl SurfacePipelines {
             cache: None,
         })
     }
+}
+
+/// World vertices, attributes, and for ink the vertices at rest.
+static VERTEX_BUFFERS: [wgpu::VertexBufferLayout<'_>; 3] = [
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<WorldVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![
+            0 => Float32x3, 1 => Uint32, 2 => Uint32, 3 => Float16x2, 8 => Uint32
+        ],
+    },
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<VertexAttributes>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![
+            4 => Float32x2, 5 => Float32x2, 6 => Unorm16x4, 7 => Uint32
+        ],
+    },
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<RestVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &[
+            attribute(9, wgpu::VertexFormat::Float32x3, 0),
+            attribute(10, wgpu::VertexFormat::Uint32, std::mem::offset_of!(RestVertex, normal)),
+            attribute(11, wgpu::VertexFormat::Uint32, std::mem::offset_of!(RestVertex, hatch)),
+        ],
+    },
+];
+
+const fn attribute(
+    shader_location: u32,
+    format: wgpu::VertexFormat,
+    offset: usize,
+) -> wgpu::VertexAttribute {
+    wgpu::VertexAttribute { format, offset: offset as u64, shader_location }
 }
 
 /// A shader module of linked WGSL.
@@ -265,6 +351,10 @@ pub(crate) fn draw_items<'a>(
         let rest_at = u64::from(chunk.rest.first) * size_of::<VertexAttributes>() as u64;
         pass.set_vertex_buffer(0, geometry.world[item.world.page].slice(world_at..));
         pass.set_vertex_buffer(1, geometry.attributes[chunk.rest.page].slice(rest_at..));
+        if variant.hatch.is_some() {
+            let rest_at = u64::from(chunk.rest.first) * size_of::<RestVertex>() as u64;
+            pass.set_vertex_buffer(2, geometry.rest[chunk.rest.page].slice(rest_at..));
+        }
         let indices = &geometry.indices[chunk.indices.page];
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         let first = chunk.indices.first;

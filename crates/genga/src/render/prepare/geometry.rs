@@ -78,7 +78,13 @@ impl GeometryBuilder {
     }
 
     /// Adds a mesh; `uv_sets` are the two sets of each primitive that go to the shaders.
-    pub(crate) fn add(&mut self, mesh: &Mesh, uv_sets: &[UvSets]) -> Vec<Vec<Chunk>> {
+    /// `directions` are those of hatching strokes by primitive and vertex, or nothing.
+    pub(crate) fn add(
+        &mut self,
+        mesh: &Mesh,
+        uv_sets: &[UvSets],
+        directions: &[Vec<Vec3>],
+    ) -> Vec<Vec<Chunk>> {
         let topology = Topology::new(mesh);
         let mut edges = topology.edges.as_slice();
         let mut chunks = Vec::with_capacity(mesh.primitives.len());
@@ -91,7 +97,13 @@ impl GeometryBuilder {
             let mut of_primitive = Vec::new();
             if !primitive.indices.is_empty() {
                 for part in Part::split(mesh, &topology, p, own, limits) {
-                    of_primitive.push(self.add_part(mesh, p, &topology, uv_sets, &part));
+                    of_primitive.push(self.add_part(
+                        mesh,
+                        p,
+                        &topology,
+                        (uv_sets, directions),
+                        &part,
+                    ));
                 }
             }
             chunks.push(of_primitive);
@@ -104,7 +116,7 @@ impl GeometryBuilder {
         mesh: &Mesh,
         own_primitive: usize,
         topology: &Topology,
-        uv_sets: UvSets,
+        (uv_sets, directions): (UvSets, &[Vec<Vec3>]),
         part: &Part,
     ) -> Chunk {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -136,6 +148,10 @@ impl GeometryBuilder {
                 joints_23: joints[2] | joints[3] << 16,
                 weights_01: weights[0] | weights[1] << 16,
                 weights_23: weights[2] | weights[3] << 16,
+                hatch: directions
+                    .get(of)
+                    .and_then(|all| all.get(v))
+                    .map_or(0, |&direction| octahedral_pack(direction)),
             });
             let uv = |set: usize| {
                 let uv = primitive.uvs.get(set).and_then(|uvs| uvs.get(v));
@@ -381,7 +397,9 @@ impl Geometry {
                 .rest
                 .pages
                 .iter()
-                .map(|page| buffer(device, queue, "rest vertices", Usage::STORAGE, page))
+                .map(|page| {
+                    buffer(device, queue, "rest vertices", Usage::STORAGE | Usage::VERTEX, page)
+                })
                 .collect(),
             attributes: builder
                 .attributes
@@ -484,13 +502,13 @@ mod tests {
     fn a_split_primitive_keeps_every_triangle_and_edge() {
         let mesh = strip(100);
         let mut whole = GeometryBuilder::new();
-        let chunks = whole.add(&mesh, &[[0, 1]]).remove(0);
+        let chunks = whole.add(&mesh, &[[0, 1]], &[]).remove(0);
         assert_eq!(chunks.len(), 1);
         // 99 folds, 2 sides of every quad, 2 ends.
         assert_eq!(all_edges(&whole, &chunks).len(), 99 + 200 + 2);
         let mut parts = GeometryBuilder::new();
         parts.max_vertices = 60;
-        let split_chunks = parts.add(&mesh, &[[0, 1]]).remove(0);
+        let split_chunks = parts.add(&mesh, &[[0, 1]], &[]).remove(0);
         assert!(split_chunks.len() > 5);
         assert_eq!(split_chunks.iter().map(|c| c.index_count).sum::<u32>(), 600);
         assert!(split_chunks.iter().all(|c| c.vertex_count <= 60));
@@ -508,7 +526,7 @@ mod tests {
         });
         let mesh = Mesh { primitives: halves.to_vec(), ..Mesh::default() };
         let mut builder = GeometryBuilder::new();
-        let chunks = builder.add(&mesh, &[[0, 1]; 2]);
+        let chunks = builder.add(&mesh, &[[0, 1]; 2], &[]);
         assert_eq!(chunks.iter().map(|c| c[0].index_count).collect::<Vec<_>>(), [6, 6]);
         let edges: Vec<_> = builder.edges.pages.concat();
         let seams = edges.iter().filter(|e| e.left & crate::render::generated::EDGE_MATERIAL != 0);
@@ -520,7 +538,7 @@ mod tests {
         let mut mesh = strip(1);
         mesh.primitives[0].line_ids = vec![1, 2, 2, 1];
         let mut builder = GeometryBuilder::new();
-        let chunk = builder.add(&mesh, &[[0, 1]]).remove(0).remove(0);
+        let chunk = builder.add(&mesh, &[[0, 1]], &[]).remove(0).remove(0);
         let first = builder.indices.pages[0][chunk.indices.first as usize];
         assert_eq!(builder.attributes[0][first as usize].line_id, 2);
     }

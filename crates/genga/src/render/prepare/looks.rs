@@ -4,12 +4,16 @@
 
 use std::{collections::HashMap, sync::Arc};
 
-use glam::{Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use crate::render::generated::{self as gpu, Look, Rule, Tone};
+use crate::render::passes::surface::HatchVariant;
 use crate::scene::Image;
 use crate::srgb::linear_from_srgb;
-use crate::style::{BaseColor, BlendSpace, Color, Lines, Override, Paint, Ramp, Style, ToneBlend};
+use crate::style::{
+    BaseColor, BlendSpace, Color, Hatch, HatchDirection, HatchMapping, HatchPattern, Lines,
+    Override, Paint, Ramp, Style, ToneBlend,
+};
 
 /// Most per-pixel selectors that can apply to one object and material: each doubles its looks.
 pub(crate) const MAX_RULES: usize = 6;
@@ -22,8 +26,65 @@ pub(crate) struct LookRange {
     pub(crate) look_first: u32,
     pub(crate) rule_first: u32,
     pub(crate) rule_count: u32,
+    /// Whether it casts shadows.
+    pub(crate) casts_shadow: bool,
     /// Picture of the id-texture selectors, if there are any.
     pub(crate) id_image: Option<Arc<Image>>,
+    pub(crate) hatch: HatchRange,
+}
+
+/// What the looks of a draw hatch with.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct HatchRange {
+    /// What its pipeline needs; `None` if nothing is hatched.
+    pub(crate) variant: Option<HatchVariant>,
+    /// Whose directions the vertices get, if any look takes theirs.
+    pub(crate) direction: Option<HatchDirection>,
+    pub(crate) image: Option<Arc<Image>>,
+}
+
+impl HatchRange {
+    fn include(&mut self, hatch: &Hatch) {
+        if hatch.pattern == HatchPattern::None {
+            return;
+        }
+        let mut variant = self.variant.unwrap_or_default();
+        let is_drawn = match hatch.pattern {
+            HatchPattern::Strokes | HatchPattern::Pencil => {
+                variant.has_strokes = true;
+                variant.has_pencil |= hatch.pattern == HatchPattern::Pencil;
+                true
+            }
+            HatchPattern::Cross => {
+                variant.has_strokes = true;
+                variant.has_cross = true;
+                true
+            }
+            HatchPattern::Stipple => {
+                variant.has_stipple = true;
+                true
+            }
+            HatchPattern::Image => {
+                variant.has_image = true;
+                self.image = self.image.take().or_else(|| hatch.image.clone());
+                true
+            }
+            HatchPattern::Dots => {
+                variant.has_dots = true;
+                false
+            }
+            HatchPattern::None | HatchPattern::Solid => false,
+        };
+        if is_drawn && hatch.mapping == HatchMapping::Surface {
+            variant.has_surface = true;
+            if !matches!(hatch.direction, HatchDirection::Light | HatchDirection::Fixed) {
+                self.direction = self.direction.or(Some(hatch.direction));
+            }
+        } else if is_drawn {
+            variant.has_plane = true;
+        }
+        self.variant = Some(variant);
+    }
 }
 
 /// Looks and rules of a scene under a style.
@@ -105,6 +166,7 @@ impl<'a> Looks<'a> {
             self.rules.push(rule);
         }
         let look_first = self.looks.len() as u32;
+        let mut hatch = HatchRange::default();
         for combination in 0..1_u32 << per_pixel.len() {
             let (mut paint, mut lines) = (style.paint.clone(), LineLook::default());
             let mut bit = 0;
@@ -119,10 +181,20 @@ impl<'a> Looks<'a> {
                     apply(o, &mut paint, &mut lines);
                 }
             }
+            hatch.include(&paint.hatch);
             let look = self.look(&paint, &lines);
             self.looks.push(look);
         }
-        LookRange { look_first, rule_first, rule_count: per_pixel.len() as u32, id_image }
+        let by_name = overrides.iter().filter(|o| !o.select.is_per_pixel());
+        let casts_shadow = by_name.filter_map(|o| o.paint.shadow.cast).next_back().unwrap_or(true);
+        LookRange {
+            look_first,
+            rule_first,
+            rule_count: per_pixel.len() as u32,
+            casts_shadow,
+            id_image,
+            hatch,
+        }
     }
 
     fn look(&mut self, paint: &Paint, lines: &LineLook) -> Look {
@@ -148,12 +220,17 @@ impl<'a> Looks<'a> {
         look.tones[..tones.len()].copy_from_slice(&tones);
         look.gain = paint.ramp.gain;
         look.shade_bias = paint.shade_bias;
+        look.shadow_tone = paint.shadow.tone;
+        if !paint.shadow.receive {
+            look.flags |= gpu::LOOK_UNSHADOWED;
+        }
         let Lines { rim, hull, .. } = &self.style.lines;
         look.line_width = if lines.visible { lines.width } else { 0.0 };
         look.line_id = u32::from(lines.line_id);
         look.rim_threshold = rim.threshold;
         look.rim_softness = rim.softness;
         look.hull_width_m = hull.width_m.unwrap_or(0.0);
+        look.hatch = hatch_of(&paint.hatch, blend);
         look
     }
 
@@ -210,8 +287,17 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     if let Some(ramp) = &o.paint.ramp {
         paint.ramp = ramp.clone();
     }
+    if let Some(hatch) = &o.paint.hatch {
+        paint.hatch = hatch.clone();
+    }
     if let Some(bias) = o.paint.shade_bias {
         paint.shade_bias = bias;
+    }
+    if let Some(tone) = o.paint.shadow.tone {
+        paint.shadow.tone = tone;
+    }
+    if let Some(receive) = o.paint.shadow.receive {
+        paint.shadow.receive = receive;
     }
     if let Some(visible) = o.lines.visible {
         lines.visible = visible;
@@ -222,6 +308,53 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     if let Some(id) = o.lines.line_id {
         lines.line_id = id;
     }
+}
+
+fn hatch_of(hatch: &Hatch, blend: BlendSpace) -> gpu::Hatch {
+    let turn = |degrees: f32| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        Vec2::new(cos, sin)
+    };
+    let mut result = gpu::Hatch {
+        color: in_blend_space(hatch.color, blend),
+        axis: Vec3::from(hatch.axis).extend(0.0),
+        turn: turn(hatch.angle_deg),
+        cross_turn: turn(hatch.cross_angle_deg),
+        pattern: match hatch.pattern {
+            HatchPattern::None => gpu::HATCH_NONE,
+            HatchPattern::Strokes => gpu::HATCH_STROKES,
+            HatchPattern::Cross => gpu::HATCH_CROSS,
+            HatchPattern::Solid => gpu::HATCH_SOLID,
+            HatchPattern::Stipple => gpu::HATCH_STIPPLE,
+            HatchPattern::Pencil => gpu::HATCH_PENCIL,
+            HatchPattern::Dots => gpu::HATCH_DOTS,
+            HatchPattern::Image => gpu::HATCH_IMAGE,
+        },
+        mapping: match hatch.mapping {
+            HatchMapping::Surface => gpu::HATCH_ON_SURFACE,
+            HatchMapping::Uv => gpu::HATCH_ON_UV,
+            HatchMapping::Screen => gpu::HATCH_ON_SCREEN,
+        },
+        direction: match hatch.direction {
+            HatchDirection::Light => gpu::HATCH_BY_LIGHT,
+            HatchDirection::Fixed => gpu::HATCH_FIXED,
+            HatchDirection::Curvature | HatchDirection::Bone | HatchDirection::Painted => 0,
+        },
+        threshold: hatch.threshold,
+        spacing: hatch.spacing,
+        length: hatch.length,
+        irregularity: hatch.irregularity,
+        base_tone: hatch.base_tone,
+        cross_below: hatch.cross_below,
+        seed: hatch.seed.wrapping_mul(0x9e37_79b9),
+        dot_spacing: 1.0 / (hatch.lines_per_inch * hatch.page_height_in).max(1e-3),
+        ..bytemuck::Zeroable::zeroed()
+    };
+    for (slot, tone) in result.tones.iter_mut().zip(&hatch.tones) {
+        *slot = Vec4::new(tone.at, tone.lum, 0.0, 0.0);
+        result.tone_count += 1;
+    }
+    result
 }
 
 fn tones_of(ramp: &Ramp, blend: BlendSpace) -> Vec<Tone> {

@@ -1,10 +1,12 @@
 //! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
 
+mod directions;
 pub(crate) mod geometry;
 pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
+pub(crate) mod shadows;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
@@ -15,11 +17,13 @@ use std::{collections::HashMap, sync::Arc};
 use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
+    directions::Source,
     geometry::{Chunk, Geometry, GeometryBuilder},
     highlights::{HighlightSets, Highlights},
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
+    shadows::Shadows,
     strokes::StrokeData,
     textures::Textures,
     waves::WaveData,
@@ -30,8 +34,9 @@ use super::{
     gpu::{bindings, scope},
     layouts::Layouts,
 };
-use crate::scene::{Aabb, AlphaMode, Material, Pose, Scene, TextureRef};
-use crate::style::{self, LineSet, Style};
+use crate::render::passes::surface::HatchVariant;
+use crate::scene::{Aabb, AlphaMode, Image, Material, Pose, Sampler, Scene, TextureRef};
+use crate::style::{self, HatchDirection, LineSet, Style};
 
 /// A scene under a style, ready to be drawn in any view.
 pub struct Prepared {
@@ -45,6 +50,7 @@ pub struct Prepared {
     /// Group 0 of the passes that draw surfaces.
     pub(crate) surface_group: wgpu::BindGroup,
     pub(crate) lights: Vec<PlacedLight>,
+    pub(crate) shadows: Shadows,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
@@ -68,10 +74,15 @@ pub(crate) struct DrawItem {
     pub(crate) double_sided: bool,
     pub(crate) blend: bool,
     pub(crate) mirrored: bool,
+    pub(crate) casts_shadow: bool,
+    /// Whether parts of it may be cut out or see-through.
+    pub(crate) tests_alpha: bool,
     /// Middle in world space, for sorting.
     pub(crate) center: Vec3,
     /// Its first joint matrix.
     matrix_first: u32,
+    /// What its hatching needs; `None` if it has none.
+    pub(crate) hatch: Option<HatchVariant>,
 }
 
 /// What the deformation of a scene needs.
@@ -172,6 +183,8 @@ impl Prepared {
         for (item, values) in self.draws.iter_mut().zip(&mut self.draw_values) {
             let matrix = matrices[item.matrix_first as usize];
             item.mirrored = matrix.matrix3.determinant() < 0.0;
+            let volume = matrix.matrix3.determinant().abs().max(1e-30);
+            values.rest_scale = volume.cbrt().recip();
             item.center = matrix.transform_point3(item.chunk.center);
             if item.mirrored {
                 values.flags |= gpu::DRAW_MIRRORED;
@@ -202,7 +215,8 @@ struct Builder<'a> {
     /// By mesh, then by primitive.
     chunks: HashMap<usize, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
-    material_of: HashMap<(Option<usize>, Option<usize>), usize>,
+    /// By material, picture of ids and picture of hatching.
+    material_of: HashMap<[Option<usize>; 3], usize>,
     draws: Vec<DrawItem>,
     draw_values: Vec<Draw>,
     deforms: Vec<(Deform, [usize; 3])>,
@@ -269,6 +283,14 @@ impl<'a> Builder<'a> {
         };
         self.matrix_count += joint_count + 1;
         self.weight_count += weight_count;
+        let ranges: Vec<LookRange> = mesh
+            .primitives
+            .iter()
+            .map(|primitive| {
+                let material = primitive.material.map_or("", |m| scene.materials[m].name.as_str());
+                self.looks.range(&node.name, material)
+            })
+            .collect();
         let chunks_of = match self.chunks.get(&mesh_index) {
             Some(chunks) => chunks.clone(),
             None => {
@@ -278,7 +300,17 @@ impl<'a> Builder<'a> {
                         [material.base_color_texture, material.emissive_texture].map(uv_set)
                     })
                 });
-                let chunks = self.geometry.add(mesh, &uv_sets.collect::<Vec<_>>());
+                let source = ranges.iter().find_map(|range| range.hatch.direction);
+                let directions = source.map(|source| {
+                    let source = match (source, node.skin) {
+                        (HatchDirection::Bone, Some(skin)) => Source::Bone(skin),
+                        (HatchDirection::Painted, _) => Source::Painted,
+                        _ => Source::Curvature,
+                    };
+                    directions::directions(scene, mesh, source)
+                });
+                let uv_sets: Vec<_> = uv_sets.collect();
+                let chunks = self.geometry.add(mesh, &uv_sets, &directions.unwrap_or_default());
                 self.chunks.insert(mesh_index, chunks.clone());
                 chunks
             }
@@ -289,7 +321,7 @@ impl<'a> Builder<'a> {
             let is_skinned = joint_count > 0 && !primitive.joints.is_empty();
             let matrix_first = deform.matrix_first + if is_skinned { 0 } else { joint_count };
             let chunks = chunks_of[p].clone();
-            let look = self.looks.range(&node.name, &material.name);
+            let look = ranges[p].clone();
             let group = self.material_group(primitive.material, material, &look);
             let highlights = self.highlights.of(index, &node.name, &material.name);
             for chunk in chunks {
@@ -317,8 +349,11 @@ impl<'a> Builder<'a> {
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
+                    casts_shadow: look.casts_shadow,
+                    tests_alpha: material.alpha != AlphaMode::Opaque,
                     center: chunk.center,
                     matrix_first,
+                    hatch: look.hatch.variant,
                     chunk,
                 });
             }
@@ -373,6 +408,10 @@ impl<'a> Builder<'a> {
             } else {
                 -1.0
             },
+            rest_scale: 1.0,
+            reserved_0: 0,
+            reserved_1: 0,
+            reserved_2: 0,
         }
     }
 
@@ -382,13 +421,16 @@ impl<'a> Builder<'a> {
         material: &Material,
         look: &LookRange,
     ) -> usize {
-        let key = (index, look.id_image.as_ref().map(|image| Arc::as_ptr(image) as usize));
+        let of = |image: &Option<Arc<Image>>| image.as_ref().map(|i| Arc::as_ptr(i) as usize);
+        let key = [index, of(&look.id_image), of(&look.hatch.image)];
         if let Some(&group) = self.material_of.get(&key) {
             return group;
         }
         let (base, base_sampler) = self.textures.get(material.base_color_texture);
         let (emissive, emissive_sampler) = self.textures.get(material.emissive_texture);
         let id = self.textures.style_image(look.id_image.as_ref());
+        let hatch = self.textures.style_image(look.hatch.image.as_ref());
+        let hatch_sampler = self.textures.sampler(Sampler::default());
         use wgpu::BindingResource as R;
         let group = bindings::group(
             self.device,
@@ -400,6 +442,8 @@ impl<'a> Builder<'a> {
                 (2, R::TextureView(&emissive)),
                 (3, R::Sampler(&emissive_sampler)),
                 (4, R::TextureView(&id)),
+                (5, R::TextureView(&hatch)),
+                (6, R::Sampler(&hatch_sampler)),
             ],
         );
         self.materials.push(group);
@@ -439,6 +483,9 @@ impl<'a> Builder<'a> {
         let light_data =
             bindings::buffer(device, queue, "lights", uniform, &[no_light; MAX_LIGHTS]);
         let ramps = ramp_texture(device, self.queue, &self.looks.ramp_rows);
+        let wanted = shadows::maps_needed(self.scene, pose, self.style);
+        let resolution = self.style.paint.shadow.resolution;
+        let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
         let surface_group = bindings::group(
             device,
             "surfaces",
@@ -450,6 +497,9 @@ impl<'a> Builder<'a> {
                 (3, rule_data.as_entire_binding()),
                 (4, light_data.as_entire_binding()),
                 (5, wgpu::BindingResource::TextureView(&ramps)),
+                (6, shadows.values.as_entire_binding()),
+                (7, wgpu::BindingResource::TextureView(&shadows.depths)),
+                (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -463,6 +513,13 @@ impl<'a> Builder<'a> {
             warnings.push(format!(
                 "the scene has {} lights; only the {MAX_LIGHTS} strongest ones are used",
                 lights.len()
+            ));
+        }
+        if wanted > shadows::MAX_MAPS {
+            warnings.push(format!(
+                "the scene's lights need {wanted} shadow maps (one a light, six a point light), more \
+                 than {}: the weaker lights cast no shadows",
+                shadows::MAX_MAPS
             ));
         }
         let curves = |set: &LineSet| -> f32 {
@@ -496,6 +553,7 @@ impl<'a> Builder<'a> {
             light_data,
             surface_group,
             lights,
+            shadows,
             deform,
             strokes,
             highlights,

@@ -70,7 +70,7 @@ impl<'a> Textures<'a> {
         view
     }
 
-    fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
+    pub(crate) fn sampler(&mut self, sampler: Sampler) -> wgpu::Sampler {
         let device = self.device;
         let wrap = |wrap| match wrap {
             Wrap::Clamp => wgpu::AddressMode::ClampToEdge,

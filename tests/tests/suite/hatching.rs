@@ -1,0 +1,114 @@
+//! Hatching: the formula on every pixel, distance and tone at every size, strokes that stay on the
+//! surface, follow it, and are no comb. The long forms run under `cargo xtask verify`.
+
+use genga::scene::Pose;
+use genga_tests::hatching::surface::Frame;
+use genga_tests::hatching::{directions, hatching, planes, subjects};
+
+/// As the presets have it.
+const HAND: &str = "pattern = \"strokes\"\nspacing = 8\nlength = 60\nirregularity = 0.5\n\
+                    tones = [{ at = 0.1, lum = 0.3 }, { at = 0.7, lum = 0.6 }]";
+
+/// Strokes far enough apart to be told from each other, of the same tone everywhere: what changes
+/// is their place.
+fn sparse(more: &str) -> genga::style::Style {
+    hatching(
+        &format!(
+            "pattern = \"strokes\"\nspacing = 12\nlength = 60\nirregularity = 0.5\nangle_deg = 40\n\
+             tones = [{{ at = 0, lum = 0.55 }}]\n{more}"
+        ),
+        384,
+    )
+}
+
+#[test]
+fn strokes_are_the_formula_on_every_pixel() {
+    for (spacing, lum, threshold) in [(9.0, 0.55, 0.5), (14.0, 0.4, 0.5), (6.5, 0.7, 0.8)] {
+        for metres in [0.8, 1.3, 2.1] {
+            let error = planes::formula_error(spacing, lum, threshold, metres);
+            // A half for rounding to 8 bits.
+            assert!(error <= 1.5, "{spacing} px, Lum {lum}, {metres} m: {error:.2}/255");
+        }
+    }
+}
+
+#[test]
+fn distance_and_tone_are_kept_at_every_size() {
+    for metres in [0.002, 0.05, 0.9, 17.0, 150.0] {
+        for (lum, tone) in [(0.65, 0.2), (0.45, 0.6)] {
+            let figures = planes::measure(&planes::even_strokes(10.0, lum, 0.5), metres, 50.0);
+            let spacing = figures.spacing;
+            assert!(spacing > 4.9 && spacing < 10.2, "{metres} m: {spacing:.2} px");
+            let off = (figures.coverage - tone).abs();
+            assert!(off <= 0.02, "{metres} m, tone {tone}: {:.3}", figures.coverage);
+        }
+    }
+}
+
+#[test]
+fn a_slow_zoom_changes_few_pixels() {
+    let scene = subjects::standing("sphere");
+    let (pose, style) = (Pose::rest(&scene), hatching(HAND, 256));
+    let frame = |zoom| Frame::draw(&scene, &pose, &style, &subjects::magnified(256, zoom));
+    for zoom in [1.0, 1.3, 1.7] {
+        let changed = frame(zoom * 1.01).changed_since(&frame(zoom));
+        assert!(changed <= 0.02, "zoom {zoom}: {:.2} %", 100.0 * changed);
+    }
+}
+
+#[test]
+fn strokes_stay_on_a_turning_body_but_not_with_the_mapping_screen() {
+    let scene = subjects::standing("cylinder");
+    let drift = |mapping: &str| {
+        let style = sparse(&format!("mapping = \"{mapping}\""));
+        let view = subjects::front(384);
+        let frame =
+            |degrees| Frame::draw(&scene, &subjects::turned(&scene, degrees), &style, &view);
+        frame(24.0).drift_since(&frame(0.0))
+    };
+    let (surface, screen) = (drift("surface"), drift("screen"));
+    assert!(surface <= 1.0, "surface: {surface} px");
+    assert!(screen > 1.0, "screen: {screen} px, so this proves nothing");
+}
+
+#[test]
+fn strokes_stay_on_a_skin() {
+    let scene = subjects::skinned();
+    let style = sparse("");
+    let frame = |degrees| {
+        Frame::draw(&scene, &subjects::bent(&scene, degrees), &style, &subjects::front(384))
+    };
+    let drift = frame(24.0).drift_since(&frame(0.0));
+    assert!(drift <= 1.0, "{drift} px");
+}
+
+#[test]
+fn strokes_run_round_the_form() {
+    for name in subjects::BODIES {
+        let scene = subjects::standing(name);
+        let style = hatching(HAND, 384);
+        let frame = Frame::draw(&scene, &Pose::rest(&scene), &style, &subjects::front(384));
+        let wanted = |hit, _| subjects::round(&frame, hit);
+        let (within, all) = directions::within_30_degrees(&frame, wanted);
+        assert!(all > 1000, "{name}: only {all} pixels are hatched");
+        assert!(within >= 0.95, "{name}: {:.1} %", 100.0 * within);
+    }
+}
+
+#[test]
+fn strokes_are_no_comb() {
+    let scene = subjects::standing("cylinder");
+    let hand = "pattern = \"strokes\"\nspacing = 8\nlength = 60\nirregularity = 0.5\n\
+                tones = [{ at = 0.2, lum = 0.2 }, { at = 0.7, lum = 0.76 }]";
+    let spread = |style| {
+        let frame =
+            Frame::draw(&scene, &Pose::rest(&scene), &style, &subjects::magnified(256, 1.2));
+        frame.spread_of_ends()
+    };
+    let (drawn, ruled) = (
+        spread(hatching(hand, 256)),
+        spread(hatching(&hand.replace("irregularity = 0.5", "irregularity = 0"), 256)),
+    );
+    assert!(drawn >= 0.15, "{drawn:.3}");
+    assert!(ruled < 0.1, "a ruler's ends spread by {ruled:.3}, so this proves nothing");
+}
