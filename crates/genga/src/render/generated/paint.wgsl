@@ -1217,10 +1217,11 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let weight = vec2f(even.weight, odd.weight);
     let gap = vec2f(even.gap, odd.gap) * select(0.0, 1.0, pen.length > 0.0);
     let loose = pen.irregularity;
-    let light = saturate(1.0 - pen.darkness);
-    let apart = min(2.5 * light, 1.0);
     let carried = saturate(share.x + share.y * weight.yx);
-    let darkness = vec2f(pen.darkness) + loose * (apart * (0.15 + 0.55 * light) * (weight - 1.0) - 1.8 * light * light * gap);
+    let light = saturate(1.0 - pen.darkness);
+    let black = saturate(2.5 * (1.3 - pen.darkness));
+    let heavier = min(black * (0.2 + 1.0 * light) * (weight - 0.4), vec2f(1.5 * max(pen.darkness, 0.0)));
+    let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - exp2(carried * log2(1.0 - tone));
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
