@@ -1220,7 +1220,7 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let carried = saturate(share.x + share.y * weight.yx);
     let light = saturate(1.0 - pen.darkness);
     let black = saturate(2.5 * (1.3 - pen.darkness));
-    let heavier = min(black * (0.2 + 1.0 * light) * (weight - 0.4), vec2f(1.5 * max(pen.darkness, 0.0)));
+    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.4), vec2f(1.5 * max(pen.darkness, 0.0)));
     let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - exp2(carried * log2(1.0 - tone));
