@@ -105,7 +105,14 @@ pub fn image(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4]) -> Im
 /// The direct light of a place in the scene.
 #[must_use]
 pub fn light(kind: LightKind, intensity: f32) -> Light {
-    Light { name: String::new(), kind, color: Vec3::ONE, intensity, pinned_to_camera: false }
+    Light {
+        name: String::new(),
+        kind,
+        color: Vec3::ONE,
+        intensity,
+        pinned_to_camera: false,
+        casts_shadow: true,
+    }
 }
 
 /// Puts a scene together.

@@ -94,7 +94,12 @@ impl Saver {
 /// What numbers are written as: colours as PNG, other quantities as OpenEXR.
 fn ending(kind: LayerKind) -> &'static str {
     match kind {
-        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => "png",
+        LayerKind::Color
+        | LayerKind::Lines
+        | LayerKind::Highlight
+        | LayerKind::Base
+        | LayerKind::Tone
+        | LayerKind::Shadow => "png",
         LayerKind::Depth
         | LayerKind::Normal
         | LayerKind::Ids
@@ -107,7 +112,12 @@ fn ending(kind: LayerKind) -> &'static str {
 
 fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
     let names: &[&str] = match layer.kind {
-        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => &["R", "G", "B", "A"],
+        LayerKind::Color
+        | LayerKind::Lines
+        | LayerKind::Highlight
+        | LayerKind::Base
+        | LayerKind::Tone
+        | LayerKind::Shadow => &["R", "G", "B", "A"],
         LayerKind::HighlightUv => &["drawing.X", "drawing.Y", "drawing.Z"],
         LayerKind::LineMask => &["set.1", "set.2", "set.3", "set.4"],
         LayerKind::LineType => &["line.type"],

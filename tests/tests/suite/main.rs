@@ -16,6 +16,7 @@ mod ramp;
 mod repeat;
 mod selectors;
 mod shaders;
+mod shadows;
 mod snapshots;
 mod transparency;
 mod waves;

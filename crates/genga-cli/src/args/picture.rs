@@ -174,6 +174,12 @@ pub(crate) enum LayerName {
     HighlightUv,
     /// Energy of the waves, 32-bit float (EXR)
     Energy,
+    /// Surfaces before the ramp (PNG)
+    Base,
+    /// What the ramp, with cast shadows, makes of white (PNG)
+    Tone,
+    /// Cast shadows alone, black on white (PNG)
+    Shadow,
 }
 
 impl LayerName {
@@ -190,6 +196,9 @@ impl LayerName {
             Self::Highlight => LayerKind::Highlight,
             Self::HighlightUv => LayerKind::HighlightUv,
             Self::Energy => LayerKind::Energy,
+            Self::Base => LayerKind::Base,
+            Self::Tone => LayerKind::Tone,
+            Self::Shadow => LayerKind::Shadow,
         }
     }
 }

@@ -142,6 +142,7 @@ impl Info {
                         LightKind::Directional => "directional",
                         LightKind::Point { .. } => "point",
                         LightKind::Spot { .. } => "spot",
+                        LightKind::Sky => "sky",
                     },
                     intensity: l.intensity,
                 })

@@ -4,12 +4,15 @@ use super::gpu::bindings::{Binding as B, layout};
 
 /// See `shaders/lib/bindings.wesl` and the headers of the passes.
 pub(crate) struct Layouts {
-    /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures.
+    /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures,
+    /// shadow maps.
     pub(crate) surface: wgpu::BindGroupLayout,
     /// Group 1 of passes that draw surfaces: base colour, emissive, ids, hatching.
     pub(crate) material: wgpu::BindGroupLayout,
     /// Group 2 of pipelines that draw highlights; see `shaders/shading/highlight.wesl`.
     pub(crate) highlights: wgpu::BindGroupLayout,
+    /// Group 0 of `shadow`: its map, draws.
+    pub(crate) shadow: wgpu::BindGroupLayout,
     /// Group 0 of `deform`.
     pub(crate) deform: wgpu::BindGroupLayout,
     /// One uniform with a dynamic offset.
@@ -45,6 +48,9 @@ impl Layouts {
                     (3, B::Storage),
                     (4, B::Uniform),
                     (5, B::Float),
+                    (6, B::Uniform),
+                    (7, B::DepthLayers),
+                    (8, B::NearestSampler),
                 ],
             ),
             material: layout(
@@ -74,6 +80,7 @@ impl Layouts {
                     (5, B::Sampler),
                 ],
             ),
+            shadow: layout(device, "shadow", drawn, &[(0, B::DynamicUniform), (1, B::Storage)]),
             deform: layout(
                 device,
                 "deform",

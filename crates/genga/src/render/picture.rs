@@ -48,11 +48,21 @@ pub enum LayerKind {
     HighlightUv,
     /// Energy of all waves together, before any colour; see [`crate::scene::Wave`].
     Energy,
+    /// Surfaces before the ramp: RGBA, sRGB-encoded, straight alpha.
+    Base,
+    /// What the ramp, with cast shadows in it, makes of white surfaces: RGBA, sRGB-encoded, straight
+    /// alpha. Where all tones multiply, [`Self::Base`] times it is [`Self::Color`] without
+    /// highlights and what shines by itself.
+    Tone,
+    /// White where all lights reach, black where all of them are cut off by what stands before
+    /// them, by their weights: RGBA, straight alpha. Surfaces turned away from a light count as
+    /// reached; their shade is in [`Self::Tone`].
+    Shadow,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Color,
         Self::Depth,
         Self::Normal,
@@ -63,6 +73,9 @@ impl LayerKind {
         Self::Highlight,
         Self::HighlightUv,
         Self::Energy,
+        Self::Base,
+        Self::Tone,
+        Self::Shadow,
     ];
 
     /// Name in file names and options.
@@ -79,6 +92,9 @@ impl LayerKind {
             Self::Highlight => "highlight",
             Self::HighlightUv => "highlight-uv",
             Self::Energy => "energy",
+            Self::Base => "base",
+            Self::Tone => "tone",
+            Self::Shadow => "shadow",
         }
     }
 }
@@ -269,7 +285,12 @@ impl Renderer {
                 let mut encoder = self.encoder("layer");
                 let output = Output { background: false, glow: false, ..whole };
                 reads.push(Some(match layer.kind {
-                    LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
+                    LayerKind::Color
+                    | LayerKind::Lines
+                    | LayerKind::Highlight
+                    | LayerKind::Base
+                    | LayerKind::Tone
+                    | LayerKind::Shadow => {
                         let paint = layer.kind != LayerKind::Lines;
                         let output = Output { paint, lines: !paint, ..output };
                         self.write_frame(prepared, view, &projected, tile, output);
@@ -319,6 +340,9 @@ fn paint_output(kind: LayerKind) -> Option<PaintOutput> {
     match kind {
         LayerKind::Color => Some(PaintOutput::Plain),
         LayerKind::Highlight => Some(PaintOutput::Highlights),
+        LayerKind::Base => Some(PaintOutput::Base),
+        LayerKind::Tone => Some(PaintOutput::Tone),
+        LayerKind::Shadow => Some(PaintOutput::Shadow),
         _ => None,
     }
 }
@@ -449,9 +473,12 @@ impl Texels {
 
 fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
     let data = match kind {
-        LayerKind::Color | LayerKind::Lines | LayerKind::Highlight => {
-            LayerData::Rgba8(vec![0; 4 * pixels])
-        }
+        LayerKind::Color
+        | LayerKind::Lines
+        | LayerKind::Highlight
+        | LayerKind::Base
+        | LayerKind::Tone
+        | LayerKind::Shadow => LayerData::Rgba8(vec![0; 4 * pixels]),
         LayerKind::Depth | LayerKind::Energy => {
             LayerData::F32 { channels: 1, values: vec![0.0; pixels] }
         }

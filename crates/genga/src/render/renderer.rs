@@ -20,6 +20,7 @@ use super::{
         plain::{PlainPass, PlainTargets},
         reference::ReferencePass,
         seams::SeamPass,
+        shadow::ShadowPass,
         strokes::StrokePass,
         walk::{WalkPass, lines_group},
         waves::WavePass,
@@ -51,6 +52,8 @@ pub struct Renderer {
     pub(crate) paint: PaintPass,
     composite: CompositePass,
     plain: PlainPass,
+    /// Made when the first shadow is cast.
+    shadow: OnceLock<ShadowPass>,
     /// Made when the first wave is drawn.
     waves: OnceLock<WavePass>,
     /// The targets of the last size drawn.
@@ -119,6 +122,7 @@ impl Renderer {
                 paint: PaintPass::new(device, &layouts),
                 composite: CompositePass::new(device),
                 plain: PlainPass::new(device, &layouts),
+                shadow: OnceLock::new(),
                 waves: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
@@ -231,7 +235,11 @@ impl Renderer {
     ) -> Arc<Targets> {
         let device = &self.device;
         let projected = Projected::new(&view.camera, view.size, prepared.bounds);
-        self.write_frame(prepared, view, &projected, tile, output);
+        let maps = self.write_frame(prepared, view, &projected, tile, output);
+        if !maps.is_empty() {
+            let pass = self.shadow.get_or_init(|| ShadowPass::new(device, &self.layouts));
+            pass.run(encoder, prepared, &maps, timer);
+        }
         let targets = self.targets_of(prepared, view, tile);
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
@@ -297,7 +305,8 @@ impl Renderer {
         pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 
-    /// Writes the frame's uniform and the lights as this camera sees them.
+    /// Writes the frame's uniform and the lights as this camera sees them. Returns the texels along
+    /// a side of each of their shadow maps.
     pub(crate) fn write_frame(
         &self,
         prepared: &Prepared,
@@ -305,17 +314,19 @@ impl Renderer {
         projected: &Projected,
         tile: Tile,
         output: Output,
-    ) {
+    ) -> Vec<u32> {
         let world_from_camera = &view.camera.world_from_camera;
-        let lights: Vec<Light> =
+        let mut lights: Vec<Light> =
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
         let tiles = [tile, viewport(&self.device, view, tile)];
         let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
         prepared.highlights.write(&self.queue, prepared, view, &lights);
+        let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
         let glow = prepared.waves.glow_values(output);
         self.queue.write_buffer(&prepared.waves.glow, 0, bytemuck::bytes_of(&glow));
+        maps
     }
 
     fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, grid: ListGrid) {

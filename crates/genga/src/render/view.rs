@@ -268,6 +268,12 @@ pub(crate) struct Projected {
 }
 
 impl Projected {
+    /// Metres that a pixel covers at a point.
+    pub(crate) fn pixel_at(&self, point: Vec3) -> f32 {
+        let away = if self.orthographic { 1.0 } else { self.eye.truncate().distance(point) };
+        self.pixel_footprint * away
+    }
+
     /// Reverse-Z, infinitely far in perspective; `bounds` sets the far plane of orthographic
     /// cameras.
     pub(crate) fn new(camera: &ViewCamera, size: [u32; 2], bounds: Option<Aabb>) -> Self {

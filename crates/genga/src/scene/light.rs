@@ -19,20 +19,25 @@ pub enum LightKind {
         /// Half angle in radians outside which it gives no light, > `inner_angle`, ≤ π/2.
         outer_angle: f32,
     },
+    /// A hemisphere: surfaces that look along the node's +Y are fully lit, those that look the
+    /// other way are not. It casts no shadows.
+    Sky,
 }
 
-/// A light of the file (KHR_lights_punctual), placed by its node.
+/// A light of the file (KHR_lights_punctual) or of a scene file, placed by its node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
     /// Name in the file; may be empty.
     pub name: String,
-    /// Directional, point or spot.
+    /// Directional, point, spot or sky.
     pub kind: LightKind,
     /// Linear RGB, each ≥ 0.
     pub color: Vec3,
-    /// Lux for directional lights, candela for the others, ≥ 0.
+    /// Lux for directional lights and skies, candela for the others, ≥ 0.
     pub intensity: f32,
     /// Whether its node's place is meant in the camera's space and not in the world's: then it
     /// turns with the camera.
     pub pinned_to_camera: bool,
+    /// Whether it casts shadows in styles that have them.
+    pub casts_shadow: bool,
 }

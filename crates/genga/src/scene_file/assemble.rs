@@ -72,7 +72,14 @@ impl SceneFile {
             let light = Some(merged.scene.lights.len());
             merged.scene.lights.push(entry.light.clone());
             let name = entry.light.name.clone();
-            merged.add_node(Node { name, transform: entry.transform, light, ..Node::default() });
+            let node = Node { name, transform: entry.transform, light, ..Node::default() };
+            match &entry.node {
+                None => drop(merged.add_node(node)),
+                Some(at) => {
+                    let parent = self.node_named(at, at, &merged.scene)?;
+                    merged.add_child(parent, node);
+                }
+            }
         }
         for entry in &self.waves {
             let wave = self.placed_wave(entry, &merged.scene)?;
@@ -142,6 +149,15 @@ impl SceneFile {
     }
 
     fn node(&self, at: &Located<NodeNames>, name: &str, scene: &Scene) -> Result<usize, FileError> {
+        self.node_named(at, name, scene)
+    }
+
+    fn node_named<T>(
+        &self,
+        at: &Located<T>,
+        name: &str,
+        scene: &Scene,
+    ) -> Result<usize, FileError> {
         let found = scene.nodes.iter().position(|node| node.name == name);
         found.ok_or_else(|| {
             let names = scene.nodes.iter().map(|node| node.name.as_str());

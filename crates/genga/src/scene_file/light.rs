@@ -2,6 +2,7 @@ use glam::{Quat, Vec3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::Located;
 use crate::scene::{Light, LightKind, Transform};
 use crate::srgb::linear_from_srgb;
 use crate::style::{Color, PinnedTo};
@@ -12,8 +13,10 @@ use crate::style::{Color, PinnedTo};
 pub struct LightEntry {
     /// What shines.
     pub light: Light,
-    /// Where it stands, in the scene's space or the camera's.
+    /// Where it stands, in the scene's space, the camera's or its node's.
     pub transform: Transform,
+    /// The node or bone that it moves with, as the file names it.
+    pub node: Option<Located<String>>,
 }
 
 /// What a light shines like.
@@ -27,6 +30,8 @@ enum Kind {
     Point,
     /// A cone.
     Spot,
+    /// The sky: what looks up is lit. It casts no shadows.
+    Sky,
 }
 
 /// A light besides those of the models.
@@ -37,7 +42,7 @@ pub(super) struct Written {
     /// Name of its node.
     #[serde(default)]
     name: String,
-    /// Directional, point or spot.
+    /// Directional, point, spot or sky.
     r#type: Kind,
     /// Directional and spot: where the light comes from, in degrees: 0 from the front, positive
     /// from the right.
@@ -46,7 +51,8 @@ pub(super) struct Written {
     /// Directional and spot: where the light comes from, in degrees: positive from above.
     #[schemars(range(min = -90, max = 90))]
     elevation_deg: Option<f32>,
-    /// Directional and spot: where the light goes, instead of the two angles.
+    /// Directional and spot: where the light goes, instead of the two angles. Sky: where the
+    /// ground is; straight down by default.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     direction: Option<[f32; 3]>,
     /// Point and spot: where the light stands, in metres.
@@ -69,8 +75,11 @@ pub(super) struct Written {
     #[schemars(range(min = 0, max = 90))]
     outer_angle_deg: Option<f32>,
     /// What its place and direction turn with; the world by default.
-    #[serde(default = "world")]
-    pinned_to: PinnedTo,
+    pinned_to: Option<PinnedTo>,
+    /// The node or bone that its place and direction move with, in whose frame they are given.
+    node: Option<Located<String>>,
+    /// Whether it casts shadows, where the style has them; true by default. A sky never does.
+    casts_shadow: Option<bool>,
 }
 
 fn white() -> Color {
@@ -79,10 +88,6 @@ fn white() -> Color {
 
 fn one() -> f32 {
     1.0
-}
-
-fn world() -> PinnedTo {
-    PinnedTo::World
 }
 
 impl TryFrom<Written> for LightEntry {
@@ -104,13 +109,29 @@ impl TryFrom<Written> for LightEntry {
             Kind::Directional => (LightKind::Directional, &keys[..4]),
             Kind::Point => (LightKind::Point { range: w.range }, &keys[2..]),
             Kind::Spot => (w.spot()?, &keys[..0]),
+            Kind::Sky => (LightKind::Sky, &keys[..4]),
+        };
+        let kind_name = match w.r#type {
+            Kind::Directional => "directional",
+            Kind::Point => "point",
+            Kind::Spot => "spot",
+            Kind::Sky => "sky",
         };
         if let Some((key, _)) = useless.iter().find(|key| key.1) {
-            let kind = if w.r#type == Kind::Point { "point" } else { "directional" };
-            return Err(format!("must not have '{key}': a {kind} light has none"));
+            return Err(format!("must not have '{key}': a {kind_name} light has none"));
         }
-        if w.r#type != Kind::Directional && w.position.is_none() {
-            return Err("must have a 'position'".to_owned());
+        if w.r#type == Kind::Sky && angles {
+            return Err("must not have angles: a sky's 'direction' says where the ground is".into());
+        }
+        if w.r#type == Kind::Sky && w.casts_shadow.is_some() {
+            return Err("must not have 'casts_shadow': a sky casts none".to_owned());
+        }
+        if w.node.is_some() && w.pinned_to.is_some() {
+            return Err("must have either a 'node' or 'pinned_to', not both".to_owned());
+        }
+        if matches!(w.r#type, Kind::Point | Kind::Spot) && w.position.is_none() && w.node.is_none()
+        {
+            return Err("must have a 'position' or a 'node'".to_owned());
         }
         if angles && w.direction.is_some() {
             return Err("must have either a 'direction' or its two angles, not both".to_owned());
@@ -119,6 +140,7 @@ impl TryFrom<Written> for LightEntry {
             Some(direction) => (-Vec3::from(direction))
                 .try_normalize()
                 .ok_or("must have a 'direction' that is not zero")?,
+            None if w.r#type == Kind::Sky => Vec3::Y,
             None => from_angles(w.azimuth_deg.unwrap_or(0.0), w.elevation_deg.unwrap_or(0.0)),
         };
         let Color { r, g, b, a: _ } = w.color;
@@ -127,14 +149,17 @@ impl TryFrom<Written> for LightEntry {
             kind,
             color: Vec3::new(r, g, b).map(linear_from_srgb),
             intensity: w.intensity,
-            pinned_to_camera: w.pinned_to == PinnedTo::Camera,
+            pinned_to_camera: w.pinned_to == Some(PinnedTo::Camera),
+            casts_shadow: w.casts_shadow.unwrap_or(true),
         };
+        // A sky's up is its node's +Y, a light shines along −Z.
+        let axis = if w.r#type == Kind::Sky { Vec3::Y } else { Vec3::Z };
         let transform = Transform::Parts {
             translation: w.position.map_or(Vec3::ZERO, Vec3::from),
-            rotation: Quat::from_rotation_arc(Vec3::Z, back),
+            rotation: Quat::from_rotation_arc(axis, back),
             scale: Vec3::ONE,
         };
-        Ok(Self { light, transform })
+        Ok(Self { light, transform, node: written.node })
     }
 }
 

@@ -127,6 +127,22 @@ impl Merged {
         self.scene.roots.push(index);
         index
     }
+
+    /// Adds a node below another one, at its place in the present pose.
+    pub(super) fn add_child(&mut self, parent: usize, node: Node) {
+        let index = self.scene.nodes.len();
+        let (world, visible) = match self.pose.world_from_node.get(parent) {
+            Some(world) => (*world, self.pose.visible.get(parent).copied().unwrap_or(true)),
+            None => (glam::Affine3A::IDENTITY, true),
+        };
+        self.pose.world_from_node.push(world * node.transform.parent_from_node());
+        self.pose.morph_weights.push(Vec::new());
+        self.pose.visible.push(visible);
+        self.scene.nodes.push(node);
+        if let Some(parent) = self.scene.nodes.get_mut(parent) {
+            parent.children.push(index);
+        }
+    }
 }
 
 fn move_by(index: &mut Option<usize>, offset: usize) {

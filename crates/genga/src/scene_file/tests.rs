@@ -77,6 +77,7 @@ pub(super) fn model() -> Scene {
             color: Vec3::ONE,
             intensity: 1.0,
             pinned_to_camera: false,
+            casts_shadow: true,
         }],
         ..Scene::default()
     }

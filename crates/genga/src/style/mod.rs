@@ -30,6 +30,7 @@ mod overrides;
 mod paint;
 pub(crate) mod picture;
 mod presets;
+mod shadow;
 #[cfg(test)]
 mod tests;
 mod widths;
@@ -49,6 +50,7 @@ pub use overrides::{
 pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
+pub use shadow::{Shadow, ShadowOverride};
 pub use widths::{Curve, WidthBy, Wobble};
 
 /// A whole look.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::{BaseColor, Color, Globs, Hatch, Ramp, picture};
+use super::{BaseColor, Color, Globs, Hatch, Ramp, ShadowOverride, picture};
 use crate::scene::Image;
 
 /// What differs for a part of the scene.
@@ -116,6 +116,8 @@ pub struct PaintOverride {
     /// Instead of the style's `paint.shade_bias`.
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: Option<f32>,
+    /// Cast shadows.
+    pub shadow: ShadowOverride,
     /// Instead of the style's `paint.hatch`, all of it.
     pub hatch: Option<Hatch>,
 }

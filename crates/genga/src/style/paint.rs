@@ -4,7 +4,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Color, Hatch, picture};
+use super::{Color, Hatch, Shadow, picture};
 use crate::scene::Image;
 use crate::toml_file::list_with;
 
@@ -75,6 +75,8 @@ pub struct Paint {
     /// Added to the ramp coordinate T: positive keeps a surface lighter. In [−1, 1].
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: f32,
+    /// Cast shadows.
+    pub shadow: Shadow,
     /// Ink over the colour: hatching, screen tone, blacks.
     pub hatch: Hatch,
 }
@@ -86,6 +88,7 @@ impl Default for Paint {
             blend_space: BlendSpace::Display,
             ramp: Ramp::default(),
             shade_bias: 0.0,
+            shadow: Shadow::default(),
             hatch: Hatch::default(),
         }
     }

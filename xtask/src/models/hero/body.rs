@@ -31,10 +31,11 @@ fn in_head(p: DVec3) -> DVec3 {
     HEAD_PIVOT + (p - HEAD_PIVOT) / HEAD_SCALE
 }
 
-/// Folds a point into the half where x ≥ 0, rounded by some millimetres so that the halves meet
-/// without a crease.
+/// Folds a point into the half where x ≥ 0, rounded by 4 mm on the head and 9 mm below, so that the
+/// halves meet without a crease.
 fn folded(p: DVec3) -> DVec3 {
-    DVec3::new((p.x * p.x + 1.6e-5).sqrt(), p.y, p.z)
+    let round = 0.004 + 0.005 * smooth_step(1.15, 1.0, p.y);
+    DVec3::new((p.x * p.x + round * round).sqrt(), p.y, p.z)
 }
 
 impl Body {
@@ -100,10 +101,10 @@ pub(super) fn edge_length(p: DVec3) -> f64 {
     finer(0.0035, on_head(DVec3::new(0.031, 1.80, 0.09), 0.026));
     finer(0.0024, on_head(DVec3::new(0.0, 1.738, 0.10), 0.022));
     finer(0.0045, on_head(DVec3::new(0.078, 1.786, -0.012), 0.03));
-    finer(0.0060, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
+    finer(0.0058, near(DVec3::new(0.713, 1.11, 0.07), 0.085));
     finer(0.0120, near(DVec3::new(0.165, 0.03, 0.04), 0.14));
     finer(0.0098, near(DVec3::new(0.0, 1.29, 0.09), 0.17));
-    finer(0.0070, near(DVec3::new(0.0, 1.05, 0.12), 0.045));
+    finer(0.0060, near(DVec3::new(0.0, 1.05, 0.12), 0.045));
     finer(0.0060, near(DVec3::new(0.0, 1.462, 0.10), 0.075));
     finer(0.0125, near(DVec3::new(0.23, 1.50, -0.01), 0.12));
     length
@@ -153,6 +154,15 @@ impl Wardrobe<'_> {
         ((p.y - middle).abs() - 0.021).max(p.x.abs() - 0.25)
     }
 
+    /// Leather does not follow muscles: it lies where they are on the mean over some centimetres.
+    pub(super) fn belt_surface(&self, p: DVec3) -> f64 {
+        let along = DVec3::new(p.z, 0.0, -p.x).normalize_or_zero();
+        let ways = [along * 0.036, along * 0.018, DVec3::Y * 0.016];
+        let sum: f64 = ways.iter().map(|&way| self.0.body(p + way) + self.0.body(p - way)).sum();
+        let own = self.0.body(p);
+        ((sum + own) / 7.0 - 0.0085).min(own - 0.004)
+    }
+
     pub(super) fn buckle(&self, p: DVec3) -> f64 {
         let q = DVec3::new(p.x.abs() - 0.030, (p.y - 1.050).abs() - 0.028, 0.0);
         let d = q.max(DVec3::ZERO).length() + q.max_element().min(0.0) - 0.006;
@@ -189,10 +199,11 @@ impl Wardrobe<'_> {
         (y - upper).max(lower - y).max(behind) * 0.9
     }
 
-    /// It lies flatter on the nose, whose sides are steep.
+    /// It lies flatter on the nose, whose sides are steep, and on the skin where hair covers it.
     pub(super) fn mask_surface(&self, p: DVec3) -> f64 {
         let (u, _) = Self::on_face(in_head(p));
-        self.0.body(p) - 0.0005 - 0.0018 * smooth_step(0.010, 0.026, u)
+        let free = smooth_step(0.0, 0.008, self.0.hair(p) - self.0.body(p));
+        self.0.body(p) - (0.0005 + 0.0018 * smooth_step(0.010, 0.026, u)) * free
     }
 
     pub(super) fn eye(&self, p: DVec3) -> f64 {

@@ -7,8 +7,8 @@ use super::skeleton::{CAPE, CAPE_JOINTS};
 use super::weights::{Weights, body_weights};
 use crate::models::sculpt::{Part, gradient, lathe, sheet, smooth_step};
 
-const ROWS: usize = 36;
-const COLUMNS: usize = 38;
+const ROWS: usize = 34;
+const COLUMNS: usize = 36;
 /// Distance that it keeps from the body at the least, in metres.
 const CLEARANCE: f64 = 0.016;
 /// Angle in radians from behind at which its upper corners lie.
@@ -16,19 +16,37 @@ const CORNER: f64 = 1.62;
 
 /// The cape in the bind pose.
 pub(super) fn cape(body: &Body) -> Part {
-    let rows: Vec<Vec<DVec3>> = (0..=ROWS)
+    let mut rows: Vec<Vec<DVec3>> = (0..=ROWS)
         .map(|r| {
             let v = r as f64 / ROWS as f64;
             // From the hero's left to the right, so that the outside faces backwards.
             (0..=COLUMNS).map(|c| place(body, 1.0 - 2.0 * c as f64 / COLUMNS as f64, v)).collect()
         })
         .collect();
-    let mut part = sheet(&rows, 0.007);
+    (0..3).for_each(|_| rows = evened(&rows));
+    let mut part = sheet(&rows, 0.006);
     part.uvs = vec![DVec2::ZERO; part.positions.len()];
     for (uv, p) in part.uvs.iter_mut().zip(&part.positions) {
         *uv = DVec2::new(p.x + 0.5, 1.6 - p.y);
     }
     part
+}
+
+/// Each point half way to the mean of its neighbours, on the border to those along the border.
+fn evened(rows: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+    let place = |r: usize, c: usize| {
+        let (top, side) = (r == 0 || r == ROWS, c == 0 || c == COLUMNS);
+        let across = || (rows[r][c - 1] + rows[r][c + 1]) / 2.0;
+        let along = || (rows[r - 1][c] + rows[r + 1][c]) / 2.0;
+        let mean = match (top, side) {
+            (true, true) => rows[r][c],
+            (true, false) => across(),
+            (false, true) => along(),
+            (false, false) => (across() + along()) / 2.0,
+        };
+        rows[r][c].midpoint(mean)
+    };
+    (0..=ROWS).map(|r| (0..=COLUMNS).map(|c| place(r, c)).collect()).collect()
 }
 
 /// `u` runs from 1 on the left to −1 on the right, `v` from 0 at the top to 1.

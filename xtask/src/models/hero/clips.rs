@@ -77,11 +77,11 @@ fn walk(t: f64) -> Pose {
     let arm = |sign: f64, forwards: f64| Arm {
         shoulder: [0.0, 3.0 * forwards],
         wrist: v(
-            sign * (0.365 - 0.035 * forwards),
+            sign * (0.440 - 0.035 * forwards),
             0.985 + 0.045 * forwards * forwards + 0.03 * forwards,
             0.06 + 0.26 * forwards,
         ),
-        elbow: v(sign * 0.55, -0.1, -1.0),
+        elbow: v(sign * 0.85, -0.1, -1.0),
         hand: v(sign * 0.10, -1.0, 0.30 + 0.35 * forwards),
         palm: v(-sign, -0.1, 0.15),
         fist: 0.55,
@@ -166,7 +166,7 @@ fn guard() -> Pose {
             Arm {
                 shoulder: [2.0, 8.0],
                 wrist: v(0.29, 1.27, 0.40),
-                elbow: v(0.75, -1.0, -0.1),
+                elbow: v(0.9, -0.7, 0.2),
                 hand: v(-0.25, 0.75, 0.55),
                 palm: v(-0.85, -0.1, -0.35),
                 fist: 1.0,
@@ -216,7 +216,8 @@ fn punch(t: f64) -> Pose {
         palm: v(0.75, -0.65, 0.20),
         fist: 1.0,
     };
-    drawn.arms[0].wrist = v(0.26, 1.27, 0.42);
+    drawn.arms[0].wrist = v(0.28, 1.27, 0.44);
+    drawn.arms[0].elbow = v(0.8, -0.5, 0.7);
     let mut struck = guard;
     struck.hips_at = v(0.03, 0.885, 0.10);
     struck.trunk = [
@@ -229,7 +230,7 @@ fn punch(t: f64) -> Pose {
     ];
     struck.arms[1] = Arm {
         shoulder: [4.0, 24.0],
-        wrist: v(0.02, 1.38, 0.72),
+        wrist: v(0.03, 1.40, 0.98),
         elbow: v(-1.0, -0.35, 0.0),
         hand: v(0.05, 0.02, 1.0),
         palm: v(0.15, -1.0, 0.0),
@@ -321,15 +322,18 @@ fn beam(t: f64) -> Pose {
         [-10.0, 0.0, 0.0],
     ];
     thrust.arms = both(
-        v(0.105, 1.33, 0.86),
-        v(0.5, -1.0, 0.0),
-        v(0.10, 0.95, 0.20),
-        v(-0.55, -0.15, 0.82),
+        v(0.20, 1.27, 0.86),
+        v(0.7, -1.0, 0.0),
+        v(0.10, 0.82, 0.55),
+        v(-0.45, -0.45, 0.82),
         0.0,
     );
     for arm in &mut thrust.arms {
-        arm.shoulder = [0.0, 18.0];
+        arm.shoulder = [0.0, 26.0];
     }
+    // The left hand stays clear of the shield that is before it.
+    thrust.arms[0].hand = v(-0.10, 0.45, 0.90);
+    thrust.arms[0].palm = v(-0.85, -0.30, 0.20);
     thrust.cape = [[24.0, 0.0, 0.0], [16.0, 0.0, 0.0], [10.0, 0.0, 0.0], [-8.0, 0.0, 0.0]];
     let mut held = thrust;
     held.hips_at.z -= 0.02;

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use glam::{DVec3, IVec3};
+use glam::DVec3;
 
 use super::clips::{CLIPS, FPS};
 use super::pose::Pose;
@@ -14,9 +14,9 @@ use super::skeleton::{
     NECK, RIGHT, SHOULDER, THUMB, TOES, UPPER_ARM, UPPER_LEG,
 };
 use super::weights::Weights;
-use super::{Cast, poses, shared_cast};
+use super::{Cast, Held, poses, shared_cast};
 
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 18] = [
     "trunk",
     "head",
     "left upper arm",
@@ -32,9 +32,14 @@ const NAMES: [&str; 15] = [
     "right shin",
     "right foot",
     "cape",
+    "shield",
+    "locks",
+    "clasps",
 ];
 const CAPE_PART: usize = 14;
 const SHIELD_PART: usize = 15;
+const LOCKS_PART: usize = 16;
+const CLASPS_PART: usize = 17;
 
 /// The part that a bone moves.
 fn part_of(bone: usize) -> usize {
@@ -54,27 +59,17 @@ fn part_of(bone: usize) -> usize {
     }
 }
 
-/// Whether a joint or a strap connects two parts.
-fn connected(a: usize, b: usize) -> bool {
-    let (a, b) = (a.min(b), a.max(b));
-    matches!(
-        (a, b),
-        (0, 1 | 2 | 5 | 8 | 11)
-            | (2, 3)
-            | (3, 4)
-            | (5, 6)
-            | (6, 7)
-            | (8, 9)
-            | (9, 10)
-            | (11, 12)
-            | (12, 13)
-            | (3 | 4, SHIELD_PART)
-    ) || a == b
+/// Whether one part is rooted in the other for good: locks in the hair that they grow from, clasps
+/// in the cape and the suit that they hold together.
+fn rooted((a, b): (usize, usize)) -> bool {
+    matches!((a, b), (1 | LOCKS_PART, LOCKS_PART) | (0 | CAPE_PART | CLASPS_PART, CLASPS_PART))
 }
 
 struct Triangles {
     points: Vec<DVec3>,
     weights: Vec<Vec<(usize, f64)>>,
+    /// The first vertex at the same place of the bind pose, itself if there is none.
+    same: Vec<u32>,
     /// Corners and part.
     triangles: Vec<([u32; 3], usize)>,
 }
@@ -83,35 +78,55 @@ fn sparse(weights: &Weights) -> Vec<(usize, f64)> {
     weights.iter().copied().enumerate().filter(|(_, w)| *w > 1e-4).collect()
 }
 
-fn triangles(cast: &Cast) -> Triangles {
-    let mut all = Triangles { points: Vec::new(), weights: Vec::new(), triangles: Vec::new() };
-    let mut add = |points: &[DVec3],
-                   weights: Vec<Vec<(usize, f64)>>,
-                   indices: &[u32],
-                   fixed: Option<usize>| {
-        let first = all.points.len() as u32;
+impl Triangles {
+    /// Adds a mesh; its triangles belong to the part of their strongest bone, or to `fixed`.
+    fn add(
+        &mut self,
+        points: &[DVec3],
+        weights: &[Weights],
+        indices: &[u32],
+        fixed: Option<usize>,
+    ) {
+        let first = self.points.len() as u32;
         for t in indices.chunks_exact(3) {
             let strongest = || {
-                let w = weights[t[0] as usize].iter().max_by(|a, b| a.1.total_cmp(&b.1));
-                w.map_or(0, |w| part_of(w.0))
+                let shares = weights[t[0] as usize].iter().enumerate();
+                shares.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(bone, _)| part_of(bone))
             };
             let corners = [0, 1, 2].map(|i| t[i] + first);
-            all.triangles.push((corners, fixed.unwrap_or_else(strongest)));
+            self.triangles.push((corners, fixed.unwrap_or_else(strongest)));
         }
-        all.points.extend(points);
-        all.weights.extend(weights);
-    };
-    for held in &cast.figure {
-        let weights = held.weights.iter().map(sparse).collect();
-        add(&held.part.positions, weights, &held.part.indices, None);
+        self.points.extend(points);
+        self.weights.extend(weights.iter().map(sparse));
     }
-    let weights = cast.cape.weights.iter().map(sparse).collect();
-    add(&cast.cape.part.positions, weights, &cast.cape.part.indices, Some(CAPE_PART));
+}
+
+fn triangles(cast: &Cast) -> Triangles {
+    let mut all = Triangles {
+        points: Vec::new(),
+        weights: Vec::new(),
+        same: Vec::new(),
+        triangles: Vec::new(),
+    };
+    for Held { part, weights } in &cast.figure {
+        all.add(&part.positions, weights, &part.indices, None);
+    }
+    for (held, part) in
+        [(&cast.locks, LOCKS_PART), (&cast.cape, CAPE_PART), (&cast.clasps, CLASPS_PART)]
+    {
+        all.add(&held.part.positions, &held.weights, &held.part.indices, Some(part));
+    }
+    let mut on_arm = vec![0.0; CAPE + skeleton::CAPE_JOINTS];
+    on_arm[LOWER_ARM] = 1.0;
     for part in &cast.shield {
         let points: Vec<DVec3> = part.positions.iter().map(|&p| p + LOWER_ARM_AT).collect();
-        let weights = vec![vec![(LOWER_ARM, 1.0)]; points.len()];
-        add(&points, weights, &part.indices, Some(SHIELD_PART));
+        let weights = vec![on_arm.clone(); points.len()];
+        all.add(&points, &weights, &part.indices, Some(SHIELD_PART));
     }
+    let mut first: HashMap<[u64; 3], u32> = HashMap::new();
+    let points = all.points.iter().enumerate();
+    let key = |p: &DVec3| p.to_array().map(f64::to_bits);
+    all.same = points.map(|(i, p)| *first.entry(key(p)).or_insert(i as u32)).collect();
     all
 }
 
@@ -131,39 +146,53 @@ fn pierces(a: DVec3, b: DVec3, [p, q, r]: [DVec3; 3]) -> bool {
     u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
 }
 
-/// How often triangles of each pair of unconnected parts cut each other.
-fn cuts(all: &Triangles, bones: &[Bone], pose: &Pose) -> BTreeMap<(usize, usize), usize> {
-    const CELL: f64 = 0.03;
+/// Pairs of triangles that cut each other in a pose, by parts: how many, and where in the bind pose
+/// the first one is.
+fn cuts(
+    all: &Triangles,
+    bones: &[Bone],
+    pose: &Pose,
+) -> BTreeMap<(usize, usize), (usize, DVec3)> {
+    const CELL: f64 = 0.02;
     let placed = pose.place(bones);
     let moved: Vec<DVec3> =
         all.points.iter().zip(&all.weights).map(|(&p, w)| placed.skinned(bones, p, w)).collect();
     let corners = |t: usize| all.triangles[t].0.map(|i| moved[i as usize]);
-    let mut cells: HashMap<IVec3, Vec<usize>> = HashMap::new();
-    for t in 0..all.triangles.len() {
+    let same = |t: usize| all.triangles[t].0.map(|i| all.same[i as usize]);
+    let bound = |t: usize| {
         let [a, b, c] = corners(t);
-        let least = (a.min(b).min(c) / CELL).floor().as_ivec3();
-        let most = (a.max(b).max(c) / CELL).floor().as_ivec3();
+        let cell = |p: DVec3| (p / CELL).floor().as_ivec3();
+        (cell(a.min(b).min(c)), cell(a.max(b).max(c)))
+    };
+    let bounds: Vec<_> = (0..all.triangles.len()).map(bound).collect();
+    let mut cells: BTreeMap<[i32; 3], Vec<usize>> = BTreeMap::new();
+    for (t, &(least, most)) in bounds.iter().enumerate() {
         for x in least.x..=most.x {
             for y in least.y..=most.y {
                 for z in least.z..=most.z {
-                    cells.entry(IVec3::new(x, y, z)).or_default().push(t);
+                    cells.entry([x, y, z]).or_default().push(t);
                 }
             }
         }
     }
     let mut found = BTreeMap::new();
-    for inside in cells.values() {
+    for (&cell, inside) in &cells {
         for (i, &t) in inside.iter().enumerate() {
             for &u in &inside[..i] {
                 let (pt, pu) = (all.triangles[t].1, all.triangles[u].1);
-                if connected(pt, pu) {
+                let pair = (pt.min(pu), pt.max(pu));
+                // Each pair is looked at in the first cell that both reach into.
+                let first = bounds[t].0.max(bounds[u].0).to_array() == cell;
+                let ours = same(t);
+                if rooted(pair) || !first || same(u).iter().any(|v| ours.contains(v)) {
                     continue;
                 }
                 let (a, b) = (corners(t), corners(u));
                 let hit = (0..3)
                     .any(|k| pierces(a[k], a[(k + 1) % 3], b) || pierces(b[k], b[(k + 1) % 3], a));
                 if hit {
-                    *found.entry((pt.min(pu), pt.max(pu))).or_insert(0) += 1;
+                    let at = all.points[all.triangles[t].0[0] as usize];
+                    found.entry(pair).or_insert((0, at)).0 += 1;
                 }
             }
         }
@@ -175,19 +204,26 @@ fn cuts(all: &Triangles, bones: &[Bone], pose: &Pose) -> BTreeMap<(usize, usize)
 fn no_frame_cuts_through_itself() {
     let bones = skeleton::bones();
     let all = triangles(shared_cast());
-    let name = |part: usize| NAMES.get(part).copied().unwrap_or("shield");
-    let mut faults = Vec::new();
-    let mut look = |what: String, pose: &Pose| {
-        for ((a, b), count) in cuts(&all, &bones, pose) {
-            faults.push(format!("{what}: {} and {} ({count})", name(a), name(b)));
-        }
-    };
-    look("the file's pose".to_owned(), &poses::charge());
+    let mut poses = vec![("the file's pose".to_owned(), poses::charge())];
     for clip in &CLIPS {
         for frame in 0..=clip.last_frame {
-            look(format!("{} {frame}", clip.name), &(clip.pose)(frame as f64 / FPS));
+            poses.push((format!("{} {frame}", clip.name), (clip.pose)(frame as f64 / FPS)));
         }
     }
+    let look = |(what, pose): &(String, Pose)| -> Vec<String> {
+        let found = cuts(&all, &bones, pose).into_iter();
+        let say = |((a, b), (count, at)): ((usize, usize), (usize, DVec3))| {
+            format!("{what}: {} and {} ({count}, {at:.3})", NAMES[a], NAMES[b])
+        };
+        found.map(say).collect()
+    };
+    let faults: Vec<String> = std::thread::scope(|scope| {
+        let halves = poses.chunks(poses.len().div_ceil(2));
+        let threads: Vec<_> =
+            halves.map(|half| scope.spawn(|| half.iter().flat_map(look).collect())).collect();
+        let found = |thread: std::thread::ScopedJoinHandle<'_, Vec<String>>| thread.join().unwrap();
+        threads.into_iter().flat_map(found).collect()
+    });
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
@@ -199,4 +235,35 @@ fn an_arm_through_the_trunk_is_found() {
     let mut pose = poses::charge();
     pose.arms[1].wrist = DVec3::new(0.0, 1.2, -0.05);
     assert!(cuts(&all, &bones, &pose).contains_key(&(0, 9)));
+}
+
+#[test]
+fn dbg_scan() {
+    let bones = skeleton::bones();
+    let all = triangles(shared_cast());
+    let mut poses = vec![("the file's pose".to_owned(), poses::charge())];
+    for clip in &CLIPS {
+        for frame in 0..=clip.last_frame {
+            poses.push((format!("{} {frame}", clip.name), (clip.pose)(frame as f64 / FPS)));
+        }
+    }
+    for (n, p) in &poses {
+        let pl = p.place(&bones);
+        let mut o = String::new();
+        for of in [0, RIGHT] {
+            let at = |b: usize| pl.places[b + of];
+            let ang = |a: DVec3, b: DVec3| a.normalize().dot(b.normalize()).acos().to_degrees();
+            let (u, l) = (at(LOWER_ARM) - at(UPPER_ARM), at(HAND) - at(LOWER_ARM));
+            let h = at(FINGERS) - at(HAND);
+            let t = at(LOWER_LEG) - at(UPPER_LEG);
+            o += &format!(" elbow {:.0} wrist {:.0} arm-down {:.0} hip {:.0} |", ang(u, l), ang(l, h), ang(u, -DVec3::Y), ang(t, -pl.turns[0].y_axis));
+        }
+        eprintln!("{n}:{o}");
+    }
+    let mut pose = (CLIPS[0].pose)(0.0);
+    for i in 16..=30 {
+        pose.arms[0].fist = f64::from(i) * 0.05;
+        pose.arms[1].fist = f64::from(i) * 0.05;
+        eprintln!("fist {:.2} {:?} {:?}", pose.arms[0].fist, cuts(&all, &bones, &pose).get(&(4, 4)), cuts(&all, &bones, &pose).get(&(10, 10)));
+    }
 }

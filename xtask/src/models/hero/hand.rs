@@ -32,11 +32,12 @@ pub(super) fn hand() -> Solid {
     s.ellipsoid(at(0.040, 0.028, 0.016), DVec3::new(0.022, 0.036, 0.018), axes, 0.012);
     s.ellipsoid(at(0.042, -0.028, 0.014), DVec3::new(0.018, 0.036, 0.014), axes, 0.012);
     // Fingers: index to little; bent by about 30° at each joint.
+    // Each is a form of its own, so that no web grows between them.
     let fingers = [
-        (0.0400, 0.097, 0.018, 1.00),
-        (0.0135, 0.102, 0.006, 1.08),
-        (-0.0135, 0.099, -0.006, 1.02),
-        (-0.0390, 0.091, -0.020, 0.88),
+        (0.0415, 0.097, 0.018, 1.00),
+        (0.0140, 0.102, 0.006, 1.08),
+        (-0.0140, 0.099, -0.006, 1.02),
+        (-0.0405, 0.091, -0.020, 0.88),
     ];
     for (side, start, fan, size) in fingers {
         let root = at(start, side, 0.002);
@@ -45,10 +46,12 @@ pub(super) fn hand() -> Solid {
         let middle = root + (bent(0.90, 0.44) * 0.042 + spread * 0.4) * size;
         let last = middle + (bent(0.55, 0.83) * 0.030 + spread * 0.12) * size;
         let tip = last + bent(0.30, 0.95) * 0.022 * size;
-        s.cone(root - along * 0.02, 0.0122, middle, 0.0114, 0.012);
-        s.ellipsoid(root - palm * 0.006, DVec3::new(0.0115, 0.014, 0.012), axes, 0.012);
-        s.cone(middle, 0.0115, last, 0.0107, 0.006);
-        s.cone(last, 0.0107, tip, 0.0098, 0.005);
+        let mut finger = Solid::new();
+        finger.cone(root - along * 0.02, 0.0114, middle, 0.0110, 0.0);
+        finger.ellipsoid(root - palm * 0.006, DVec3::new(0.0112, 0.014, 0.012), axes, 0.012);
+        finger.cone(middle, 0.0110, last, 0.0104, 0.012);
+        finger.cone(last, 0.0104, tip, 0.0096, 0.010);
+        s.solid(finger, 0.004);
     }
     // The thumb points forwards and across.
     let [base, joint, tip] = thumb_joints();

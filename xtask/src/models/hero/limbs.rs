@@ -34,14 +34,14 @@ pub(super) fn arm() -> Solid {
     let (u, l) = (upper_arm(), lower_arm());
     s.cone(u.at(0.0, 0.0, 0.0), 0.052, u.at(1.0, 0.0, 0.0), 0.038, 0.0);
     // Deltoid: side, front and rear head, meeting in a point at the middle of the arm.
-    belly(&mut s, u.at(-0.22, 0.020, 0.0), u.at(0.56, 0.030, 0.0), u.out, (0.068, 0.064), 0.02);
+    belly(&mut s, u.at(-0.22, 0.020, 0.0), u.at(0.56, 0.030, 0.0), u.out, (0.068, 0.064), 0.030);
     belly(
         &mut s,
         u.at(-0.24, 0.010, 0.048),
         u.at(0.52, 0.026, 0.026),
         u.front,
         (0.048, 0.042),
-        0.010,
+        0.019,
     );
     belly(
         &mut s,
@@ -49,7 +49,7 @@ pub(super) fn arm() -> Solid {
         u.at(0.50, 0.026, -0.024),
         -u.front,
         (0.048, 0.042),
-        0.010,
+        0.019,
     );
     // Biceps and triceps.
     belly(
@@ -58,7 +58,7 @@ pub(super) fn arm() -> Solid {
         u.at(0.99, -0.002, 0.020),
         u.front,
         (0.047, 0.050),
-        0.012,
+        0.023,
     );
     belly(
         &mut s,
@@ -66,7 +66,7 @@ pub(super) fn arm() -> Solid {
         u.at(0.86, 0.012, -0.028),
         -u.front,
         (0.042, 0.044),
-        0.012,
+        0.023,
     );
     belly(
         &mut s,
@@ -74,9 +74,9 @@ pub(super) fn arm() -> Solid {
         u.at(0.90, -0.014, -0.030),
         -u.front,
         (0.040, 0.044),
-        0.012,
+        0.023,
     );
-    belly(&mut s, u.at(0.55, 0.018, 0.002), u.at(1.05, 0.016, 0.008), u.out, (0.024, 0.026), 0.010);
+    belly(&mut s, u.at(0.55, 0.018, 0.002), u.at(1.05, 0.016, 0.008), u.out, (0.024, 0.026), 0.019);
     // Forearm: two bones side by side, the mass of muscles near the elbow.
     s.cone(l.at(0.0, 0.0, 0.0), 0.040, l.at(0.98, 0.010, 0.0), 0.024, 0.02);
     s.cone(l.at(0.1, -0.008, 0.0), 0.036, l.at(0.98, -0.010, 0.0), 0.024, 0.02);
@@ -86,7 +86,7 @@ pub(super) fn arm() -> Solid {
         l.at(0.66, 0.014, 0.022),
         l.front,
         (0.041, 0.039),
-        0.014,
+        0.027,
     );
     belly(
         &mut s,
@@ -94,7 +94,7 @@ pub(super) fn arm() -> Solid {
         l.at(0.72, -0.014, 0.006),
         -l.out,
         (0.041, 0.037),
-        0.014,
+        0.027,
     );
     belly(
         &mut s,
@@ -102,7 +102,7 @@ pub(super) fn arm() -> Solid {
         l.at(0.74, 0.008, -0.014),
         -l.front,
         (0.036, 0.030),
-        0.014,
+        0.027,
     );
     s.cone(u.at(1.0, 0.0, -0.030), 0.020, l.at(0.02, 0.0, -0.030), 0.018, 0.014);
     s
@@ -121,7 +121,7 @@ pub(super) fn leg() -> Solid {
         u.at(0.90, 0.004, 0.034),
         u.front,
         (0.043, 0.054),
-        0.010,
+        0.019,
     );
     belly(
         &mut s,
@@ -129,7 +129,7 @@ pub(super) fn leg() -> Solid {
         u.at(0.90, 0.034, 0.022),
         u.out,
         (0.056, 0.054),
-        0.010,
+        0.019,
     );
     belly(
         &mut s,
@@ -137,7 +137,7 @@ pub(super) fn leg() -> Solid {
         u.at(1.00, -0.032, 0.028),
         inner,
         (0.040, 0.042),
-        0.009,
+        0.017,
     );
     // Inside and back.
     belly(
@@ -146,7 +146,7 @@ pub(super) fn leg() -> Solid {
         u.at(0.70, -0.034, 0.004),
         -u.out,
         (0.062, 0.046),
-        0.014,
+        0.027,
     );
     belly(
         &mut s,
@@ -154,7 +154,7 @@ pub(super) fn leg() -> Solid {
         u.at(0.99, 0.030, -0.028),
         -u.front,
         (0.042, 0.052),
-        0.009,
+        0.017,
     );
     belly(
         &mut s,
@@ -162,10 +162,10 @@ pub(super) fn leg() -> Solid {
         u.at(0.99, -0.028, -0.028),
         -u.front,
         (0.042, 0.052),
-        0.009,
+        0.017,
     );
     // The furrow from the hip's outside to the knee's inside.
-    s.carve_cone(u.at(0.06, -0.014, 0.098), 0.005, u.at(0.55, -0.044, 0.066), 0.005, 0.016);
+    s.carve_cone(u.at(0.06, -0.014, 0.098), 0.005, u.at(0.55, -0.044, 0.066), 0.005, 0.026);
     // Knee.
     s.ellipsoid(u.at(1.0, 0.0, 0.036), v(0.030, 0.036, 0.026), u.axes(), 0.016);
     s.cone(l.at(0.06, 0.0, 0.030), 0.022, l.at(0.16, 0.0, 0.026), 0.018, 0.016);
@@ -177,7 +177,7 @@ pub(super) fn leg() -> Solid {
         l.at(0.58, -0.018, -0.024),
         v(-0.4, 0.0, -1.0),
         (0.042, 0.055),
-        0.014,
+        0.027,
     );
     belly(
         &mut s,
@@ -185,7 +185,7 @@ pub(super) fn leg() -> Solid {
         l.at(0.52, 0.020, -0.024),
         v(0.5, 0.0, -1.0),
         (0.040, 0.052),
-        0.014,
+        0.027,
     );
     belly(
         &mut s,
@@ -193,7 +193,7 @@ pub(super) fn leg() -> Solid {
         l.at(0.76, 0.012, 0.014),
         v(1.0, 0.0, 0.6),
         (0.032, 0.028),
-        0.014,
+        0.027,
     );
     s.cone(l.at(0.55, 0.0, -0.030), 0.022, l.at(1.0, 0.0, -0.036), 0.016, 0.02);
     s

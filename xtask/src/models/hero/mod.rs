@@ -22,7 +22,9 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Mat4, Vec3};
 
 use super::glb::{MaterialId, Model, NodeId, Surface};
-use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh};
+use super::sculpt::{
+    Imprinted, Part, Region, imprint, polygonise, relax, remesh, smooth_step,
+};
 use body::{Body, Wardrobe, edge_length};
 use weights::Weights;
 
@@ -59,8 +61,8 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
     let skin = |p: DVec3| body.body(p);
     let hair_surface = |p: DVec3| body.hair(p);
     let mask_surface = |p: DVec3| w.mask_surface(p);
-    let belt_surface = |p: DVec3| body.body(p) - 0.0065;
-    let buckle_surface = |p: DVec3| body.body(p) - 0.0120;
+    let belt_surface = |p: DVec3| w.belt_surface(p);
+    let buckle_surface = |p: DVec3| w.belt_surface(p) - 0.0055;
     let trunks_surface = |p: DVec3| body.body(p) - 0.0025;
     let (hair, eye, mask) = (|p| w.hair(p), |p| w.eye(p), |p| w.mask(p));
     let (mouth, skin_in, buckle) = (|p| w.mouth(p), |p| w.skin(p), |p| w.buckle(p));
@@ -104,7 +106,19 @@ fn figure(body: &Body, bones: usize) -> Vec<Held> {
 fn held(body: &Body, imprinted: &Imprinted, bones: usize) -> Vec<Weights> {
     let weights =
         imprinted.points().iter().map(|&p| weights::body_weights(body, p, bones)).collect();
-    imprinted.diffused(weights, 8)
+    let weights = imprinted.diffused(weights, 8, &|_| 0.5);
+    // Shoulders, crotch and groins fold far.
+    let folds = |p: DVec3| {
+        let near = |at: DVec3, radius: f64| {
+            let p = DVec3::new(p.x.abs(), p.y, p.z);
+            smooth_step(2.0 * radius, radius, p.distance(at))
+        };
+        let shoulder = near(DVec3::new(0.23, 1.47, 0.01), 0.085);
+        let crotch = near(DVec3::new(0.0, 0.89, 0.03), 0.06);
+        let groin = near(DVec3::new(0.09, 0.94, 0.08), 0.045);
+        0.5 * shoulder.max(0.2 * crotch).max(0.6 * groin)
+    };
+    imprinted.diffused(weights, 28, &folds)
 }
 
 impl Held {

@@ -10,6 +10,9 @@ use super::skeleton::{
     mirrored,
 };
 
+/// Elbows and knees bend no further: such muscles leave no room for more.
+const MOST_BENT_DEG: f64 = 103.0;
+
 /// Turns in degrees: bow forwards, turn to the own left, tilt to the own right.
 pub(super) type Turn = [f64; 3];
 
@@ -170,7 +173,9 @@ impl Placed {
         let (d1, d2) = (bones[second].at - bones[first].at, bones[end].at - bones[second].at);
         let (l1, l2) = (d1.length(), d2.length());
         let way = target - from;
-        let distance = way.length().clamp((l1 - l2).abs() + 0.02, (l1 + l2) * 0.997);
+        let bent = libm::cos(MOST_BENT_DEG.to_radians());
+        let least = (l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * bent).sqrt();
+        let distance = way.length().clamp(least, (l1 + l2) * 0.997);
         let way = way.normalize();
         let along = (l1 * l1 - l2 * l2 + distance * distance) / (2.0 * distance);
         let off = (l1 * l1 - along * along).max(0.0).sqrt();
@@ -207,10 +212,10 @@ impl Placed {
         let across = -mirror(bind.thumb) * sign;
         let bend = |deg: f64| about(across, deg);
         let curl = arm.fist;
-        self.hang(bones, FINGERS + of, bend(-24.0 + 84.0 * curl));
-        self.hang(bones, FINGER_TIPS + of, bend(-26.0 + 82.0 * curl));
+        self.hang(bones, FINGERS + of, bend(-24.0 + 72.0 * curl));
+        self.hang(bones, FINGER_TIPS + of, bend(-26.0 + 69.0 * curl));
         let thumb_axis = mirror(bind.along) * sign;
-        self.hang(bones, THUMB + of, about(thumb_axis, -34.0 * curl) * bend(18.0 * curl));
+        self.hang(bones, THUMB + of, about(thumb_axis, -29.0 * curl) * bend(15.0 * curl));
     }
 
     fn leg(&mut self, bones: &[Bone], of: usize, leg: &Leg) {

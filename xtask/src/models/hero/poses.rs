@@ -11,7 +11,7 @@ fn v(x: f64, y: f64, z: f64) -> DVec3 {
 /// The pose of the file: a charge behind the shield, the right fist drawn back.
 pub(super) fn charge() -> Pose {
     Pose {
-        hips_at: v(0.0, 0.815, 0.0),
+        hips_at: v(0.0, 0.825, 0.0),
         trunk: [
             [12.0, -22.0, 0.0],
             [9.0, -8.0, 0.0],
@@ -23,8 +23,8 @@ pub(super) fn charge() -> Pose {
         arms: [
             Arm {
                 shoulder: [8.0, 16.0],
-                wrist: v(0.03, 1.30, 0.54),
-                elbow: v(1.0, -0.30, 0.1),
+                wrist: v(-0.14, 1.27, 0.56),
+                elbow: v(1.0, -0.40, 0.45),
                 hand: v(-0.90, 0.30, 0.25),
                 palm: v(-0.10, 0.15, -1.0),
                 fist: 1.0,

@@ -51,7 +51,7 @@ pub(super) fn shield() -> [Part; 3] {
     let boss = lathe(&[&boss, &[*boss.last().unwrap_or(&(0.0, 0.0)), middle[0]]], 48);
     let limb = lower_arm();
     let axes = DMat3::from_cols(limb.along, limb.out.cross(limb.along), limb.out);
-    let center = limb.at(0.84, 0.088, 0.0) - LOWER_ARM_AT;
+    let center = limb.at(0.62, 0.096, 0.0) - LOWER_ARM_AT;
     [metal, ring, boss].map(|mut part| {
         for p in &mut part.positions {
             *p = center + axes * *p;

@@ -30,7 +30,7 @@ pub(super) fn body_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
     let mut w = vec![0.0; bones];
     w[HIPS] = 1.0;
     // The trunk from below to above.
-    hand_on(&mut w, HIPS, SPINE, smooth_step(1.06, 1.17, q.y));
+    hand_on(&mut w, HIPS, SPINE, smooth_step(1.075, 1.19, q.y));
     hand_on(&mut w, SPINE, CHEST, smooth_step(1.18, 1.32, q.y));
     hand_on(&mut w, CHEST, UPPER_CHEST, smooth_step(1.31, 1.47, q.y));
     let of_neck = smooth_step(0.02, -0.02, head - torso) * smooth_step(1.56, 1.62, q.y);
@@ -39,13 +39,26 @@ pub(super) fn body_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
     // The collar bone's share.
     let collar = smooth_step(0.05, 0.18, q.x) * smooth_step(1.42, 1.53, q.y);
     hand_on(&mut w, UPPER_CHEST, SHOULDER + of, 0.85 * collar * (1.0 - of_neck));
-    let on_arm = smooth_step(-0.030, 0.035, torso - arm)
-        * smooth_step(-0.075, 0.045, (q - upper_arm().from).dot(upper_arm().along) + 0.0);
+    // The breast folds more softly than the shoulder blade.
+    let breast = smooth_step(-0.01, 0.05, q.z);
+    let on_arm = smooth_step(-0.030 - 0.02 * breast, 0.035 + 0.02 * breast, torso - arm)
+        * smooth_step(
+            -0.075 - 0.03 * breast,
+            0.045 + 0.05 * breast,
+            (q - upper_arm().from).dot(upper_arm().along),
+        );
     for bone in [HIPS, SPINE, CHEST, UPPER_CHEST, SHOULDER + of] {
         hand_on(&mut w, bone, UPPER_ARM + of, on_arm);
     }
+    let groin = smooth_step(-0.02, 0.06, q.z);
     let on_leg = smooth_step(-0.045, 0.055, torso - leg)
-        * smooth_step(-0.07, 0.06, (q - upper_leg().from).dot(upper_leg().along));
+        // The groin folds more softly than the seat, and the belt stays on the hips.
+        * smooth_step(
+            -0.07 + 0.03 * groin,
+            0.06 + 0.10 * groin,
+            (q - upper_leg().from).dot(upper_leg().along),
+        )
+        * smooth_step(1.035, 0.985, q.y);
     for bone in [HIPS, SPINE] {
         hand_on(&mut w, bone, UPPER_LEG + of, on_leg);
     }
@@ -63,11 +76,16 @@ pub(super) fn body_weights(body: &Body, p: DVec3, bones: usize) -> Weights {
 }
 
 fn hand_down_arm(w: &mut [f64], of: usize, q: DVec3) {
-    let bisector = (upper_arm().along + lower_arm().along).normalize();
-    let elbow = smooth_step(-0.055, 0.055, (q - LOWER_ARM_AT).dot(bisector));
+    // Where flesh meets in the bend, two turns may only be mixed slowly: past a slope of
+    // 1 / (2 r tan(θ / 2)) over the distance, the skin r off a joint bent by θ folds over.
+    let (upper, lower) = (upper_arm().along, lower_arm().along);
+    let bisector = (upper + lower).normalize();
+    let inner = smooth_step(-0.02, 0.03, (q - LOWER_ARM_AT).dot((lower - upper).normalize()));
+    let reach = 0.055 + 0.060 * inner;
+    let elbow = smooth_step(-reach, reach, (q - LOWER_ARM_AT).dot(bisector));
     hand_on(w, UPPER_ARM + of, LOWER_ARM + of, elbow);
     let hand::Frame { along, palm, .. } = hand::frame();
-    let wrist = smooth_step(-0.030, 0.025, (q - HAND_AT).dot(along));
+    let wrist = smooth_step(-0.050, 0.035, (q - HAND_AT).dot(along));
     hand_on(w, LOWER_ARM + of, HAND + of, wrist);
     let (base, tip) = hand::thumb_line();
     let way = tip - base;

@@ -1,7 +1,7 @@
 //! Borders of materials: smooth curves on a mesh that its edges follow exactly, and raised
 //! regions with walls round them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
@@ -9,6 +9,9 @@ use super::field::{Field, gradient, project};
 use super::mesh::{Mesh, prev};
 use super::remesh::stays_flat;
 use super::sweep::Part;
+
+/// How often normals are mixed with their neighbours'.
+const NORMAL_ROUNDS: usize = 2;
 
 /// A part of the surface with a material of its own.
 pub(in crate::models) struct Region<'a> {
@@ -62,13 +65,18 @@ pub(in crate::models) fn imprint(
                 g[v] = 0.0;
             }
         }
-        for h in 0..mesh.half_edges() {
-            let Some(t) = crosses(&mesh, &borders, &g, h) else { continue };
-            let p = mesh.point(mesh.from(h)).lerp(mesh.point(mesh.to(h)), t.clamp(0.05, 0.95));
-            let both = borders[mesh.from(h) as usize] & borders[mesh.to(h) as usize];
-            mesh.split(h, onto_border(p, field, region.inside));
-            borders.push(bit | both);
-            g.push(0.0);
+        // Splitting gives sides of the two triangles new numbers, so those are looked at as well.
+        let mut h = 0;
+        while h < mesh.half_edges() {
+            if let Some(t) = crosses(&mesh, &borders, &g, h) {
+                let (a, b) = (mesh.from(h), mesh.to(h));
+                let p = mesh.point(a).lerp(mesh.point(b), t.clamp(0.05, 0.95));
+                let both = borders[a as usize] & borders[b as usize];
+                mesh.split(h, onto_border(p, field, region.inside));
+                borders.push(bit | both);
+                g.push(0.0);
+            }
+            h += 1;
         }
     }
     let (mesh, borders) = without_short_edges(mesh, borders, length);
@@ -226,15 +234,16 @@ impl Imprinted {
     pub(in crate::models) fn parts(&self, regions: &[Region<'_>]) -> Vec<Part> {
         let mut parts: Vec<Part> = regions.iter().map(|_| Part::default()).collect();
         let mut vertices: BTreeMap<(u32, usize), u32> = BTreeMap::new();
+        let neighbors = self.neighbors();
+        let smooth: Vec<_> =
+            (0..regions.len()).map(|k| self.smooth_region(&neighbors, regions, k)).collect();
         for (h, &v) in self.mesh.corners.iter().enumerate() {
             let label = self.labels[h / 3];
-            let Region { surface, raised, .. } = regions[label];
             let part = &mut parts[label];
             let index = *vertices.entry((v, label)).or_insert_with(|| {
-                let p = self.mesh.point(v);
-                let p = if raised { project(surface, p) } else { p };
+                let (p, normal) = smooth[label][&(v as usize)];
                 part.sources.push(v);
-                part.push(p, gradient(surface, p).normalize_or_zero())
+                part.push(p, normal)
             });
             part.indices.push(index);
         }
@@ -293,31 +302,133 @@ impl Imprinted {
         parts
     }
 
+    /// The vertices that each vertex has an edge to.
+    fn neighbors(&self) -> Vec<Vec<usize>> {
+        let mut neighbors = vec![Vec::new(); self.mesh.points.len()];
+        for h in 0..self.mesh.half_edges() {
+            neighbors[self.mesh.from(h) as usize].push(self.mesh.to(h) as usize);
+        }
+        neighbors
+    }
+
+    /// Place and normal of each vertex of a region, on the region's own surface.
+    ///
+    /// A field turns more sharply in furrows than edges can follow, and tones would end in teeth
+    /// there. So normals are those of the triangles, mixed with their neighbours', on the region's
+    /// own surface also beyond its border: no hard edge is rounded off, and regions of one surface
+    /// agree on it. Lines follow these normals, so they may not stray far from the triangles.
+    fn smooth_region(
+        &self,
+        neighbors: &[Vec<usize>],
+        regions: &[Region<'_>],
+        label: usize,
+    ) -> BTreeMap<usize, (DVec3, DVec3)> {
+        let Region { surface, raised, .. } = regions[label];
+        let place = |v: usize| {
+            let p = self.mesh.points[v];
+            let off = if raised { project(surface, p) } else { p };
+            // Where the surfaces meet there is no wall.
+            let p = if off.distance(p) < 2.5e-4 { p } else { off };
+            (p, gradient(surface, p).normalize_or_zero())
+        };
+        let corners = self.mesh.corners.iter().enumerate();
+        let own = corners.filter(|(h, _)| self.labels[h / 3] == label).map(|(_, &v)| v as usize);
+        let mut found: BTreeMap<usize, (DVec3, DVec3)> = BTreeMap::new();
+        let mut ring: BTreeSet<usize> = own.collect();
+        for _ in 0..NORMAL_ROUNDS + 3 {
+            found.extend(ring.iter().map(|&v| (v, place(v))));
+            let near = ring.iter().flat_map(|&v| &neighbors[v]).copied();
+            ring = near.filter(|v| !found.contains_key(v)).collect();
+        }
+        let mut sums: BTreeMap<usize, DVec3> = BTreeMap::new();
+        for t in self.mesh.corners.chunks_exact(3) {
+            let corners = [0, 1, 2].map(|i| t[i] as usize);
+            if let [Some(a), Some(b), Some(c)] = corners.map(|v| found.get(&v)) {
+                let normal = (b.0 - a.0).cross(c.0 - a.0);
+                for v in corners {
+                    *sums.entry(v).or_default() += normal;
+                }
+            }
+        }
+        for (v, sum) in sums {
+            if let Some((_, normal)) = found.get_mut(&v) {
+                *normal = sum.normalize_or_zero();
+            }
+        }
+        for _ in 0..NORMAL_ROUNDS {
+            let mixed = |(&v, &(p, normal)): (&usize, &(DVec3, DVec3))| {
+                let near = neighbors[v].iter().filter_map(|n| found.get(n)).map(|(_, n)| *n);
+                let sum: DVec3 = near.sum();
+                (v, (p, (normal + sum.normalize_or_zero()).normalize_or_zero()))
+            };
+            found = found.iter().map(mixed).collect();
+        }
+        found
+    }
+
     /// The vertices before any stood off the surface.
     pub(in crate::models) fn points(&self) -> &[DVec3] {
         &self.mesh.points
     }
 
-    /// Values of the vertices, each mixed with its neighbours' that many times.
+    /// Values of the vertices, each mixed with its neighbours' that many times; at each place the
+    /// neighbours have the share `rate`.
     pub(in crate::models) fn diffused(
         &self,
         mut values: Vec<Vec<f64>>,
         rounds: usize,
+        rate: &dyn Fn(DVec3) -> f64,
     ) -> Vec<Vec<f64>> {
-        let mut neighbors = vec![Vec::new(); values.len()];
-        for h in 0..self.mesh.half_edges() {
-            neighbors[self.mesh.from(h) as usize].push(self.mesh.to(h) as usize);
-        }
+        let rates: Vec<f64> = self.mesh.points.iter().map(|&p| rate(p)).collect();
+        let neighbors = self.neighbors();
         for _ in 0..rounds {
             let mixed = |(v, own): (usize, &Vec<f64>)| {
                 let near = &neighbors[v];
                 let mean = |i: usize| {
                     near.iter().map(|&n| values[n][i]).sum::<f64>() / near.len().max(1) as f64
                 };
-                (0..own.len()).map(|i| 0.5 * own[i] + 0.5 * mean(i)).collect()
+                let rate = rates[v];
+                if rate == 0.0 {
+                    return own.clone();
+                }
+                (0..own.len()).map(|i| own[i] + (mean(i) - own[i]) * rate).collect()
             };
             values = values.iter().enumerate().map(mixed).collect();
         }
         values
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::models::sculpt::{polygonise, remesh};
+
+    /// Where two regions meet, every corner is on the border: none was left uncut because an edge
+    /// had got another number.
+    #[test]
+    fn borders_of_regions_have_no_snags() {
+        let ball = |p: DVec3| p.length() - 0.1;
+        let length = |_: DVec3| 0.008;
+        let spots = |p: DVec3| (p * 40.0).to_array().map(libm::cos).iter().sum::<f64>() * 0.02;
+        let rest = |_: DVec3| -1.0;
+        let regions = [
+            Region { inside: &spots, surface: &ball, raised: false },
+            Region { inside: &rest, surface: &ball, raised: false },
+        ];
+        let mesh = polygonise(&ball, DVec3::splat(-0.12), DVec3::splat(0.12), 0.006);
+        let mesh = remesh(mesh, &ball, &length, 4);
+        let mut imprinted = imprint(mesh, &ball, &regions, &length);
+        relax(&mut imprinted, &ball, &regions, 2);
+        let Imprinted { mesh, labels, .. } = &imprinted;
+        let mut corners = 0;
+        for h in 0..mesh.half_edges() {
+            if labels[h as usize / 3] != labels[mesh.twin(h) as usize / 3] {
+                corners += 1;
+                let off = spots(mesh.point(mesh.from(h)));
+                assert!(off.abs() < 1e-4, "{off} at {}", mesh.point(mesh.from(h)));
+            }
+        }
+        assert!(corners > 100, "{corners}");
     }
 }

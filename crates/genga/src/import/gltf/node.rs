@@ -293,5 +293,6 @@ fn read_light(file: &GltfFile, index: usize, item: &LightItem) -> Light {
         color: color.max(Vec3::ZERO),
         intensity: intensity.max(0.0),
         pinned_to_camera: false,
+        casts_shadow: true,
     }
 }

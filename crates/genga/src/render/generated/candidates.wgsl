@@ -27,6 +27,8 @@ var<storage, read> rest: array<RestVertex>;
 @group(1) @binding(4)
 var<uniform> range: StrokeRange;
 
+const BORDER_GROWTH: f32 = 0.08;
+
 const COUNT_LINES: u32 = 2u;
 
 const CREASE_GROWTH: f32 = 0.15;
@@ -475,7 +477,7 @@ fn find_contours(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
     let turn = sqrt(max(2.0 - 2.0 * min(min(turns.x, turns.y), turns.z), 0.0));
     let along = b.p - a.p;
     let depth = max(max(depth_across(c0.p - a.p, along, to_eye), depth_across(c1.p - a.p, along, to_eye)), depth_across(c2.p - a.p, along, to_eye));
-    kind.own_depth = select(depth, 0.0, faces);
+    kind.own_depth = select(1.5 * depth, -depth, faces);
     kind.own_width = 0.5 * depth * turn;
     list_line(End(a.p, a.n, a.rest, a.width, a.curvature, key_of(a.p)), End(b.p, b.n, b.rest, b.width, b.curvature, key_of(b.p)), kind);
 }
@@ -579,6 +581,15 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             continue;
         }
         var kind = Kind();
+        var grown = vec2f(1.0);
+        if (is_border && !two_sided) {
+            let flat_size = sqrt(dot(left_normal, left_normal));
+            let size = select(1.0, flat_size, (edge.left & EDGE_FLAT) != 0u);
+            let facing = mix(vec2f(facing_left.x), vec2f(facing_left.y), vec2f(s0, s1));
+            let away = sqrt(dot(facing_vector(frame, c0.p), facing_vector(frame, c0.p)));
+            grown = saturate(facing / max(size * away * BORDER_GROWTH, 1e-37));
+            grown *= grown;
+        }
         kind.order = mixed(range.order_first + number, u32(i));
         kind.known = known;
         kind.types = known | select(0u, LINE_SILHOUETTE, is_silhouette);
@@ -590,6 +601,10 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             kind.own_depth = depth_across(smooth_third - c0.p, c1.p - c0.p, facing_vector(frame, c0.p));
             kind.own_width = 0.2 * kind.own_depth;
         }
-        list_line(end_of_edge(c0, c1, rest_0, rest_1, s0, keys[i]), end_of_edge(c0, c1, rest_0, rest_1, s1, keys[i + 1]), kind);
+        var a = end_of_edge(c0, c1, rest_0, rest_1, s0, keys[i]);
+        var b = end_of_edge(c0, c1, rest_0, rest_1, s1, keys[i + 1]);
+        a.width *= grown.x;
+        b.width *= grown.y;
+        list_line(a, b, kind);
     }
 }

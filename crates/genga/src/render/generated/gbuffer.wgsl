@@ -160,8 +160,8 @@ struct Look {
     rim_threshold: f32,
     rim_softness: f32,
     hull_width_m: f32,
+    shadow_tone: f32,
     reserved_0: u32,
-    reserved_1: u32,
     hatch: Hatch
 }
 

@@ -146,7 +146,7 @@ struct Piece {
     order: u32,
     link_a: u32,
     link_b: u32,
-    reserved: u32
+    own_step: f32
 }
 
 fn best_partner(end: u32) -> Best {

@@ -18,6 +18,15 @@ var<uniform> lights: array<Light, 16>;
 @group(0) @binding(5)
 var ramp_pictures: texture_2d<f32>;
 
+@group(0) @binding(6)
+var<uniform> shadow_maps: array<ShadowMap, 16>;
+
+@group(0) @binding(7)
+var shadow_depths: texture_depth_2d_array;
+
+@group(0) @binding(8)
+var nearest: sampler;
+
 @group(1) @binding(0)
 var base_color_texture: texture_2d<f32>;
 
@@ -61,6 +70,10 @@ const AXES = array<vec3f, 6>(vec3f(1.0, 0.0, 0.0), vec3f(0.70710678, 0.70710678,
 
 const BORDER: f32 = 0.03;
 
+const CLEARANCE: f32 = 4.0;
+
+const DEPTH_OFFSET: f32 = 1.0;
+
 const DRAW_ALPHA_BLEND: u32 = 4u;
 
 const DRAW_ALPHA_MASK: u32 = 2u;
@@ -78,6 +91,8 @@ const FRAME_LINEAR_BLEND: u32 = 1u;
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const GAP: f32 = 0.03;
+
+const GRAZING: f32 = 0.35;
 
 const HATCH_BY_LIGHT: u32 = 1u;
 
@@ -107,7 +122,11 @@ const HIGHLIGHT_REPLACES: u32 = 2u;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
+const LIGHT_SKY: u32 = 3u;
+
 const LIGHT_SPOT: u32 = 2u;
+
+const LONGEST_STEP: f32 = 1.5;
 
 const LOOK_BASE_FIXED: u32 = 4u;
 
@@ -117,15 +136,31 @@ const LOOK_RAMP_IMAGE: u32 = 2u;
 
 const LOOK_SMOOTH_RAMP: u32 = 1u;
 
+const LOOK_UNSHADOWED: u32 = 16u;
+
+const MAX_CLEARANCE: f32 = 200.0;
+
+const MAX_SLOPE: f32 = 12.0;
+
+const MAX_STEPS: f32 = 6.0;
+
 const METHOD_RIM: u32 = 4u;
 
 const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
+const OUTPUT_BASE: u32 = 3u;
+
 const OUTPUT_COORDINATES: u32 = 2u;
 
 const OUTPUT_HIGHLIGHT: u32 = 1u;
+
+const OUTPUT_PICTURE: u32 = 0u;
+
+const OUTPUT_SHADOW: u32 = 5u;
+
+const OUTPUT_TONE: u32 = 4u;
 
 const RULE_BASE_COLOR: u32 = 1u;
 
@@ -173,6 +208,16 @@ struct Draw {
     reserved_0: u32,
     reserved_1: u32,
     reserved_2: u32
+}
+
+struct Footing {
+    at: vec2f,
+    bound: f32,
+    slope: vec2f,
+    softness: f32,
+    px: vec2f,
+    py: vec2f,
+    is_inside: bool
 }
 
 struct Frame {
@@ -324,9 +369,14 @@ struct Light {
     direction: vec4f,
     factors: vec4f,
     kind: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    shadow_first: u32,
+    shadow_maps: u32,
+    reserved_0: u32
+}
+
+struct LightTerm {
+    term: f32,
+    to_light: vec3f
 }
 
 struct LineSet {
@@ -359,8 +409,8 @@ struct Look {
     rim_threshold: f32,
     rim_softness: f32,
     hull_width_m: f32,
+    shadow_tone: f32,
     reserved_0: u32,
-    reserved_1: u32,
     hatch: Hatch
 }
 
@@ -395,6 +445,14 @@ struct RampColor {
     added: vec3f
 }
 
+struct Receiver {
+    p_in_world: vec3f,
+    px: vec3f,
+    py: vec3f,
+    face: vec3f,
+    clearance: f32
+}
+
 struct RestInput {
     @location(8)
     direction: u32,
@@ -423,9 +481,19 @@ struct Shaded {
     look: u32,
     t: f32,
     t_width: f32,
+    reach: f32,
     rim: f32,
     rim_width: f32,
     own_tone: f32
+}
+
+struct ShadowMap {
+    clip_from_world: mat4x4f,
+    clip_from_plane: mat4x4f,
+    texels: f32,
+    texel_m: f32,
+    depth_scale: f32,
+    is_perspective: f32
 }
 
 struct Surface {
@@ -555,6 +623,34 @@ fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32
     let slope = length(vec2f(dot(across, dx), dot(across, dy)));
     let along = Way(dot(way, p), length(vec2f(dot(way, dx), dot(way, dy))), 1.0);
     return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec2f(share, 0.0), salt);
+}
+
+fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
+    let face = receiver.face;
+    let is_perspective = shadow_maps[map].is_perspective > 0.5;
+    let p = receiver.p_in_world;
+    let clip = shadow_maps[map].clip_from_world * vec4f(p, 1.0);
+    let texel_m = shadow_maps[map].texel_m * select(1.0, max(clip.w, 0.0), is_perspective);
+    let grazing = 1.0 - smoothstep(0.0, GRAZING, dot(face, to_light));
+    let clearance = min(receiver.clearance * CLEARANCE, MAX_CLEARANCE * texel_m) * grazing;
+    let ndc = clip.xyz / max(clip.w, 1e-12);
+    var depth_per_m = shadow_maps[map].depth_scale;
+    if (is_perspective) {
+        depth_per_m /= max(clip.w * clip.w, 1e-24);
+    }
+    let plane = shadow_maps[map].clip_from_plane * vec4f(face, -dot(face, p));
+    let texels = shadow_maps[map].texels;
+    let c = select(min(plane.z, -1e-12), max(plane.z, 1e-12), plane.z >= 0.0);
+    let most = MAX_SLOPE * texel_m * depth_per_m;
+    let slope = clamp(plane.xy / c * vec2f(-2.0, 2.0) / texels, vec2f(-most), vec2f(most));
+    let cosine = max(dot(face, to_light), 0.0);
+    let tangent = min(sqrt(max(1.0 - cosine * cosine, 0.0)) / max(cosine, 0.001), MAX_SLOPE);
+    let bound = ndc.z + depth_per_m * (DEPTH_OFFSET * (1.0 + tangent) * texel_m + clearance);
+    let at = (ndc.xy * vec2f(0.5, -0.5) + 0.5) * texels;
+    let px = place_in_map(map, p + receiver.px) - at;
+    let py = place_in_map(map, p + receiver.py) - at;
+    let is_inside = clip.w > 0.0 && all(abs(ndc.xy) < vec2f(1.0)) && ndc.z < 1.0;
+    return Footing(at, bound, slope, depth_per_m * texel_m, px, py, is_inside);
 }
 
 fn footprint(frame: Frame, distance: f32) -> f32 {
@@ -732,7 +828,7 @@ fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f 
 
 fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
     var left = 1.0;
-    if (HAS_MASK) {
+    if (HAS_TONE) {
         let flags = highlights.items[i].flags;
         if ((flags & HIGHLIGHT_IN_LIGHT) != 0u) {
             left = lit;
@@ -740,6 +836,8 @@ fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
         if ((flags & HIGHLIGHT_IN_SHADOW) != 0u) {
             left = 1.0 - lit;
         }
+    }
+    if (HAS_MASK) {
         let layer = highlights.items[i].mask;
         let drawn = textureSampleLevel(masks, repeated, uv, max(layer, 0), 0.0).x;
         left *= select(1.0, drawn, layer >= 0);
@@ -762,7 +860,7 @@ fn highlit(in: Surface, front_facing: bool, coverage: vec4f, shaded: Shaded, und
         color = vec4f(0.0);
     }
     var lit = 1.0;
-    if (HAS_MASK) {
+    if (HAS_TONE) {
         lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
     }
     let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
@@ -838,11 +936,34 @@ fn is_cut_out(in: Surface, alpha: f32) -> bool {
     return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
+    if (lights[light].shadow_maps == 0u) {
+        return 1.0;
+    }
+    let map = map_of(light, receiver.p_in_world);
+    let footing = footing_of(map, receiver, to_light);
+    if (!footing.is_inside) {
+        return 1.0;
+    }
+    let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
+    let long = select(footing.py, footing.px, is_wide);
+    let short = select(footing.px, footing.py, is_wide);
+    let count = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    var sum = 0.0;
+    for (var i = 0.5; i < count; i += 1.0) {
+        let step = long * (i / count - 0.5);
+        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
+        let width = length(vec2f(dot(lit.yz, long) / count, dot(lit.yz, short)));
+        sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
+    }
+    return sum / count;
+}
+
+fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return factors.x * dot(normal, direction);
+    if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
+        return LightTerm(dot(normal, direction), direction);
     }
     let offset = light.position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
@@ -856,13 +977,40 @@ fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
     let low = c / 12.92;
     let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
     return select(high, low, c <= vec3f(0.04045));
+}
+
+fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f, softness: f32) -> vec3f {
+    let corner = floor(at - 0.5) + 1.0;
+    let f = at + 0.5 - corner;
+    let wx = spline_weights(f.x);
+    let wy = spline_weights(f.y);
+    let sx = spline_slopes(f.x);
+    let sy = spline_slopes(f.y);
+    let dx = (vec4f(-1.5, -0.5, 0.5, 1.5) + (corner.x - at.x)) * slope.x;
+    let dy = (vec4f(-1.5, -0.5, 0.5, 1.5) + (corner.y - at.y)) * slope.y;
+    let size = vec2f(textureDimensions(shadow_depths));
+    var lit = vec3f(0.0);
+    for (var i = 0u; i < 4u; i++) {
+        let right = (i & 1u) != 0u;
+        let below = (i & 2u) != 0u;
+        let place = corner + vec2f(select(-1.0, 1.0, right), select(-1.0, 1.0, below));
+        let d = textureGather(shadow_depths, nearest, place / size, map);
+        let vx = select(wx.xyyx, wx.zwwz, right);
+        let vy = select(wy.yyxx, wy.wwzz, below);
+        let ux = select(sx.xyyx, sx.zwwz, right);
+        let uy = select(sy.yyxx, sy.wwzz, below);
+        let bounds = bound + select(dx.xyyx, dx.zwwz, right) + select(dy.yyxx, dy.wwzz, below);
+        let free = saturate(1.0 - (d - bounds) / max(softness, 1e-30));
+        lit += vec3f(dot(free, vx * vy), dot(free, ux * vy), dot(free, vx * uy));
+    }
+    return lit;
 }
 
 fn look_index(in: Surface, base: vec3f) -> u32 {
@@ -875,6 +1023,22 @@ fn look_index(in: Surface, base: vec3f) -> u32 {
         }
     }
     return draws[in.draw].look_first + combination;
+}
+
+fn map_of(light: u32, p_in_world: vec3f) -> u32 {
+    let first = lights[light].shadow_first;
+    if (lights[light].shadow_maps == 1u) {
+        return first;
+    }
+    let d = p_in_world - lights[light].position.xyz;
+    let a = abs(d);
+    if (a.x >= a.y && a.x >= a.z) {
+        return first + select(1u, 0u, d.x >= 0.0);
+    }
+    if (a.y >= a.z) {
+        return first + select(3u, 2u, d.y >= 0.0);
+    }
+    return first + select(5u, 4u, d.z >= 0.0);
 }
 
 fn mapped_normal(i: u32, in_node: vec3f) -> vec3f {
@@ -1013,6 +1177,11 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
 }
 
+fn place_in_map(map: u32, p_in_world: vec3f) -> vec2f {
+    let clip = shadow_maps[map].clip_from_world * vec4f(p_in_world, 1.0);
+    return (clip.xy / max(clip.w, 1e-12) * vec2f(0.5, -0.5) + 0.5) * shadow_maps[map].texels;
+}
+
 fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, salt: u32) -> f32 {
     let slope = length(vec2f(dot(axis, at.right), dot(axis, at.up)));
     let u = axis_side(axis);
@@ -1090,12 +1259,30 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
     return result;
 }
 
+fn ramp_coordinate(sum: f32, gain: f32, bias: f32) -> f32 {
+    return saturate(0.5 + 0.5 * clamp(sum * gain, -1.0, 1.0) + bias);
+}
+
 fn ramp_picture(row: u32, t: f32) -> vec3f {
     let width = textureDimensions(ramp_pictures).x;
     let x = clamp(t * f32(width) - 0.5, 0.0, f32(width - 1u));
     let left = u32(floor(x));
     let right = min(left + 1u, width - 1u);
     return mix(textureLoad(ramp_pictures, vec2u(left, row), 0).rgb, textureLoad(ramp_pictures, vec2u(right, row), 0).rgb, x - floor(x));
+}
+
+fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
+    let px = dpdx(p_in_world);
+    let py = dpdy(p_in_world);
+    let across = cross(px, py);
+    let area = dot(across, across);
+    var face = select(normal, across * inverseSqrt(max(area, 1e-38)), area > 1e-38);
+    face = select(-face, face, dot(face, normal) >= 0.0);
+    let nx = dpdx(normal);
+    let ny = dpdy(normal);
+    let radius = sqrt((dot(px, px) + dot(py, py)) / max(dot(nx, nx) + dot(ny, ny), 1e-12));
+    let angle = max(length(normal - face) - 0.01, 0.0);
+    return Receiver(p_in_world, px, py, face, angle * radius);
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -1148,8 +1335,19 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let look_flags = looks[look_index].flags;
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
-    for (var i = 0u; i < frame.light_count; i++) {
-        sum += light_share(lights[i], in.p_in_world, normal);
+    var terms: array<vec2f, 16>;
+    if (SHADOWS) {
+        let receiver = receiver_at(in.p_in_world, normal);
+        for (var i = 0u; i < frame.light_count; i++) {
+            let light = light_term(lights[i], in.p_in_world, normal);
+            sum += lights[i].factors.x * light.term;
+            terms[i] = vec2f(light.term, light_reach(i, receiver, light.to_light));
+        }
+    }
+    else {
+        for (var i = 0u; i < frame.light_count; i++) {
+            sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        }
     }
     let sum_width = fwidth(sum);
     var rim = 0.0;
@@ -1162,8 +1360,40 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         discard;
     }
     let gain = looks[look_index].gain;
-    let t = saturate(0.5 + 0.5 * clamp(sum * gain, -1.0, 1.0) + looks[look_index].shade_bias);
-    let t_width = 0.5 * gain * sum_width;
+    let bias = looks[look_index].shade_bias;
+    let t_free = ramp_coordinate(sum, gain, bias);
+    let free_width = 0.5 * gain * sum_width;
+    var t = t_free;
+    var t_width = free_width;
+    var t_lit = t_free;
+    var t_dark = t_free;
+    var lit = 1.0;
+    var reach = 1.0;
+    if (SHADOWS) {
+        if ((look_flags & LOOK_UNSHADOWED) == 0u) {
+            let tone = looks[look_index].shadow_tone;
+            let cap = (2.0 * (tone - bias) - 1.0) / max(gain, 1e-6);
+            var mixed = 0.0;
+            var upper = 0.0;
+            var lower = 0.0;
+            reach = 0.0;
+            for (var i = 0u; i < frame.light_count; i++) {
+                let weight = lights[i].factors.x;
+                let term = terms[i].x;
+                let reached = terms[i].y;
+                let capped = min(term, cap);
+                mixed += weight * mix(capped, term, reached);
+                upper += weight * select(capped, term, reached > 0.0);
+                lower += weight * select(term, capped, reached < 1.0);
+                reach += weight * reached;
+            }
+            lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
+            t_lit = ramp_coordinate(upper, gain, bias);
+            t_dark = ramp_coordinate(lower, gain, bias);
+            t = ramp_coordinate(mixed, gain, bias);
+            t_width = select(max(free_width, t_lit - t_dark), free_width, lit <= 0.0 || lit >= 1.0);
+        }
+    }
     var base = material.base;
     if ((look_flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[look_index].fixed_color.rgb;
@@ -1171,17 +1401,31 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (linear_blend) {
         base = linear_from_display(base);
     }
+    if (OUTPUT == OUTPUT_TONE) {
+        base = vec3f(1.0);
+    }
     var color = base;
-    if ((draw_flags & DRAW_UNLIT) == 0u) {
+    if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
         if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
-            color = base * ramp_picture(looks[look_index].ramp_row, t);
+            color = base * ramp_picture(looks[look_index].ramp_row, t_lit);
+            if (SHADOWS) {
+                let dark = base * ramp_picture(looks[look_index].ramp_row, t_dark);
+                color = mix(dark, color, lit);
+            }
         }
         else {
-            let ramp = ramp_color(look_index, t, t_width);
+            let ramp = ramp_color(look_index, t_lit, free_width);
             color = base * ramp.factor + ramp.added;
+            if (SHADOWS) {
+                let dark = ramp_color(look_index, t_dark, free_width);
+                color = mix(base * dark.factor + dark.added, color, lit);
+            }
         }
     }
-    if (any(material.emissive > vec3f(0.0))) {
+    if (OUTPUT == OUTPUT_SHADOW) {
+        color = vec3f(reach);
+    }
+    if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
     }
     var alpha = 1.0;
@@ -1192,7 +1436,8 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         color = vec3f(0.0);
         alpha = 0.0;
     }
-    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, rim, rim_width, dot(material.base, vec3f(0.299, 0.587, 0.114)));
+    let own_tone = dot(material.base, vec3f(0.299, 0.587, 0.114));
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, rim, rim_width, own_tone);
 }
 
 fn sign_not_zero(v: vec2f) -> vec2f {
@@ -1201,6 +1446,17 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn signed_axis(axis: vec3f) -> vec3f {
     return select(-axis, axis, dot(axis, vec3f(16.0, 4.0, 1.0)) > 0.0);
+}
+
+fn spline_slopes(f: f32) -> vec4f {
+    let g = 1.0 - f;
+    return vec4f(-0.5 * g * g, -2.0 * f + 1.5 * f * f, 2.0 * g - 1.5 * g * g, 0.5 * f * f);
+}
+
+fn spline_weights(f: f32) -> vec4f {
+    let g = 1.0 - f;
+    let f2 = f * f;
+    return vec4f(g * g * g, 4.0 - 6.0 * f2 + 3.0 * f2 * f, 4.0 - 6.0 * g * g + 3.0 * g * g * g, f2 * f) / 6.0;
 }
 
 fn stroke_coverage(d: f32, half_width: f32, texel: f32) -> f32 {
@@ -1367,6 +1623,9 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let shaded = shade(in, front_facing);
+    if (OUTPUT != OUTPUT_PICTURE) {
+        return shaded.color;
+    }
     return with_rim(in, shaded, shaded.color);
 }
 
@@ -1416,6 +1675,8 @@ override HAS_MATRIX: bool = false;
 
 override HAS_NORMAL_MAP: bool = false;
 
+override HAS_TONE: bool = false;
+
 override HATCH_HAS_CROSS: bool = false;
 
 override HATCH_HAS_DOTS: bool = false;
@@ -1441,5 +1702,7 @@ override ON_PANORAMA: bool = false;
 override OUTPUT: u32 = 0u;
 
 override REPLACES: bool = false;
+
+override SHADOWS: bool = false;
 
 override SHARE_PROXY: bool = false;

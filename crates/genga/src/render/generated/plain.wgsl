@@ -31,6 +31,8 @@ const DRAW_ALPHA_MASK: u32 = 2u;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
+const LIGHT_SKY: u32 = 3u;
+
 const LIGHT_SPOT: u32 = 2u;
 
 const RULE_BASE_COLOR: u32 = 1u;
@@ -106,9 +108,14 @@ struct Light {
     direction: vec4f,
     factors: vec4f,
     kind: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    shadow_first: u32,
+    shadow_maps: u32,
+    reserved_0: u32
+}
+
+struct LightTerm {
+    term: f32,
+    to_light: vec3f
 }
 
 struct LineSet {
@@ -231,10 +238,14 @@ fn is_cut_out(in: Surface, alpha: f32) -> bool {
 }
 
 fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+    return light.factors.x * light_term(light, p_in_world, normal).term;
+}
+
+fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return factors.x * dot(normal, direction);
+    if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
+        return LightTerm(dot(normal, direction), direction);
     }
     let offset = light.position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
@@ -248,7 +259,7 @@ fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {

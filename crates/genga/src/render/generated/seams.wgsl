@@ -65,6 +65,7 @@ struct Course {
     outward: vec2f,
     reach: f32,
     own_depth: f32,
+    own_step: f32,
     types: u32,
     known: u32,
     crease: f32,
@@ -169,7 +170,7 @@ struct Piece {
     order: u32,
     link_a: u32,
     link_b: u32,
-    reserved: u32
+    own_step: f32
 }
 
 struct Side {
@@ -188,7 +189,7 @@ fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u,
     let s1 = in_space(t1);
     let rest_0 = mix(line.rest_a, line.rest_b, s0);
     let rest_1 = mix(line.rest_a, line.rest_b, s1);
-    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, 0u);
+    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, line.own_step);
     if (before != 0u) {
         pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
     }

@@ -43,6 +43,8 @@ const CURVE_TAPER: u32 = 4u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const FRAME_SMALL_DETECTION: u32 = 512u;
+
 const ID_OBJECT: u32 = 16777215u;
 
 const ID_THROUGH_SHIFT: u32 = 28u;
@@ -187,7 +189,7 @@ struct Piece {
     order: u32,
     link_a: u32,
     link_b: u32,
-    reserved: u32
+    own_step: f32
 }
 
 struct Stroke {
@@ -198,7 +200,7 @@ struct Stroke {
     @location(1) @interpolate(flat)
     shape: vec4f,
     @location(2) @interpolate(flat)
-    depths: vec2f,
+    depths: vec3f,
     @location(3) @interpolate(flat)
     what: vec4u,
     @location(4) @interpolate(flat)
@@ -353,7 +355,14 @@ fn ink_at(in: Stroke) -> Ink {
             covered = behind(p_px, line_depth) > 8.0;
         }
         else {
-            covered = is_covered(p_px, spine, line_depth, in.owner);
+            let shown = ids_at(p_px);
+            let is_other = ((shown ^ in.owner) & ID_OBJECT) != 0u && (shown & ID_OBJECT) != 0u;
+            if (is_other && (frame.flags & FRAME_SMALL_DETECTION) == 0u) {
+                covered = is_under_other(p_px, mix(a, b, place.t), line_depth, shown);
+            }
+            else {
+                covered = is_covered(p_px, spine, line_depth, in.owner, in.depths.z);
+            }
         }
         if (covered) {
             let through = ids_at(p_px) >> ID_THROUGH_SHIFT;
@@ -366,12 +375,14 @@ fn ink_at(in: Stroke) -> Ink {
     return Ink(channels * coverage * dashed, line_depth, place.t);
 }
 
-fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32) -> bool {
+fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32, own_step: f32) -> bool {
     var here = behind(p_px, line_depth);
     if (here <= ON_SURFACE) {
         return false;
     }
-    let steepness = select(1.0, 3.0, ((ids_at(p_px) ^ owner) & ID_OBJECT) == 0u);
+    let is_own = ((ids_at(p_px) ^ owner) & ID_OBJECT) == 0u;
+    let steepness = select(1.0, 3.0, is_own);
+    let step = STEP + select(0.0, own_step, is_own);
     let way = spine_px - p_px;
     let length_px = length(way);
     if (length_px <= NEAR_LINE) {
@@ -384,7 +395,7 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32) -> bool
     for (var i = 1u; i <= steps; i++) {
         let after = behind(p_px + unit * min(f32(i) + 1.0, length_px), line_depth);
         let drop = here - next;
-        if (drop > STEP + steepness * max(fall, max(next - after, 0.0))) {
+        if (drop > step + steepness * max(fall, max(next - after, 0.0))) {
             return true;
         }
         fall = max(drop, 0.0);
@@ -395,6 +406,39 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32) -> bool
         }
     }
     return false;
+}
+
+fn is_under_other(p_px: vec2f, spine_px: vec2f, line_depth: f32, other: u32) -> bool {
+    var here = behind(p_px, line_depth);
+    if (here <= ON_SURFACE) {
+        return false;
+    }
+    let way = spine_px - p_px;
+    let length_px = length(way);
+    let unit = way / max(length_px, 1e-6);
+    var fall = 0.0;
+    if (((ids_at(p_px - unit) ^ other) & ID_OBJECT) == 0u) {
+        fall = max(behind(p_px - unit, line_depth) - here, 0.0);
+    }
+    var at = 0.0;
+    let steps = u32(clamp(floor(length_px), 0.0, 48.0));
+    for (var i = 1u; i <= steps; i++) {
+        let next_px = p_px + unit * f32(i);
+        if (((ids_at(next_px) ^ other) & ID_OBJECT) != 0u) {
+            break;
+        }
+        let next = behind(next_px, line_depth);
+        if (here - next > STEP + 3.0 * fall) {
+            break;
+        }
+        fall = max(here - next, 0.0);
+        here = next;
+        at = f32(i);
+        if (here <= ON_SURFACE) {
+            return false;
+        }
+    }
+    return here - fall * (length_px - at) > ON_SURFACE;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {
@@ -496,7 +540,7 @@ fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
 
 @vertex
 fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
-    let nothing = Stroke(vec4f(2.0, 2.0, 0.5, 1.0), vec4f(0.0), vec4f(0.0), vec2f(0.0), vec4u(0u), 0u);
+    let nothing = Stroke(vec4f(2.0, 2.0, 0.5, 1.0), vec4f(0.0), vec4f(0.0), vec3f(0.0), vec4u(0u), 0u);
     let corner = vertex % 6u;
     let line_set = (vertex / 6u) % frame.line_set_count;
     let piece = vertex / (6u * frame.line_set_count);
@@ -529,5 +573,5 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     if (!end.is_closed && end.distance < BEFORE_CUT && !end.is_joined) {
         flags |= PIECE_COVERED_B;
     }
-    return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec2f(pieces[piece].depth_a, pieces[piece].depth_b), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b), pieces[piece].owner);
+    return Stroke(vec4f(ndc, 0.5, 1.0), vec4f(a, b), vec4f(radius_a, radius_b, start.distance, start.distance + own), vec3f(pieces[piece].depth_a, pieces[piece].depth_b, pieces[piece].own_step), vec4u(line_set, flags, pieces[piece].base_a, pieces[piece].base_b), pieces[piece].owner);
 }

@@ -651,6 +651,7 @@ pub(crate) const ID_SETS_SHIFT: u32 = 24u32;
 pub(crate) const ID_THROUGH_SHIFT: u32 = 28u32;
 pub(crate) const LIGHT_DIRECTIONAL: u32 = 0u32;
 pub(crate) const LIGHT_POINT: u32 = 1u32;
+pub(crate) const LIGHT_SKY: u32 = 3u32;
 pub(crate) const LIGHT_SPOT: u32 = 2u32;
 pub(crate) const LINE_BORDER: u32 = 16u32;
 pub(crate) const LINE_CREASE: u32 = 2u32;
@@ -663,6 +664,7 @@ pub(crate) const LOOK_BASE_FIXED: u32 = 4u32;
 pub(crate) const LOOK_BASE_NONE: u32 = 8u32;
 pub(crate) const LOOK_RAMP_IMAGE: u32 = 2u32;
 pub(crate) const LOOK_SMOOTH_RAMP: u32 = 1u32;
+pub(crate) const LOOK_UNSHADOWED: u32 = 16u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Light {
@@ -670,9 +672,9 @@ pub(crate) struct Light {
     pub(crate) direction: glam::Vec4,
     pub(crate) factors: glam::Vec4,
     pub(crate) kind: u32,
+    pub(crate) shadow_first: u32,
+    pub(crate) shadow_maps: u32,
     pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
     std::mem::size_of::< Light > () == 64, "size of Light does not match WGSL"
@@ -693,16 +695,16 @@ const _: () = assert!(
     std::mem::offset_of!(Light, kind) == 48, "offset of Light.kind does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_0) == 52,
+    std::mem::offset_of!(Light, shadow_first) == 52,
+    "offset of Light.shadow_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Light, shadow_maps) == 56,
+    "offset of Light.shadow_maps does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Light, reserved_0) == 60,
     "offset of Light.reserved_0 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_1) == 56,
-    "offset of Light.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Light, reserved_2) == 60,
-    "offset of Light.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -947,8 +949,8 @@ pub(crate) struct Look {
     pub(crate) rim_threshold: f32,
     pub(crate) rim_softness: f32,
     pub(crate) hull_width_m: f32,
+    pub(crate) shadow_tone: f32,
     pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
     pub(crate) hatch: Hatch,
 }
 const _: () = assert!(
@@ -1000,12 +1002,12 @@ const _: () = assert!(
     "offset of Look.hull_width_m does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_0) == 312,
-    "offset of Look.reserved_0 does not match WGSL"
+    std::mem::offset_of!(Look, shadow_tone) == 312,
+    "offset of Look.shadow_tone does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_1) == 316,
-    "offset of Look.reserved_1 does not match WGSL"
+    std::mem::offset_of!(Look, reserved_0) == 316,
+    "offset of Look.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Look, hatch) == 320, "offset of Look.hatch does not match WGSL"
@@ -1050,7 +1052,7 @@ pub(crate) struct Piece {
     pub(crate) order: u32,
     pub(crate) link_a: u32,
     pub(crate) link_b: u32,
-    pub(crate) reserved: u32,
+    pub(crate) own_step: f32,
 }
 const _: () = assert!(
     std::mem::size_of::< Piece > () == 104, "size of Piece does not match WGSL"
@@ -1143,8 +1145,8 @@ const _: () = assert!(
     "offset of Piece.link_b does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Piece, reserved) == 100,
-    "offset of Piece.reserved does not match WGSL"
+    std::mem::offset_of!(Piece, own_step) == 100,
+    "offset of Piece.own_step does not match WGSL"
 );
 pub(crate) const RULE_BASE_COLOR: u32 = 1u32;
 pub(crate) const RULE_ID_TEXTURE: u32 = 4u32;
@@ -1267,6 +1269,43 @@ pub(crate) const SET_COLOR_BASE: u32 = 2u32;
 pub(crate) const SET_COLOR_LIGHT: u32 = 4u32;
 pub(crate) const SET_CURVES: u32 = 256u32;
 pub(crate) const SET_HIDDEN: u32 = 1u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct ShadowMap {
+    pub(crate) clip_from_world: glam::Mat4,
+    pub(crate) clip_from_plane: glam::Mat4,
+    pub(crate) texels: f32,
+    pub(crate) texel_m: f32,
+    pub(crate) depth_scale: f32,
+    pub(crate) is_perspective: f32,
+}
+const _: () = assert!(
+    std::mem::size_of::< ShadowMap > () == 144, "size of ShadowMap does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, clip_from_world) == 0,
+    "offset of ShadowMap.clip_from_world does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, clip_from_plane) == 64,
+    "offset of ShadowMap.clip_from_plane does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, texels) == 128,
+    "offset of ShadowMap.texels does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, texel_m) == 132,
+    "offset of ShadowMap.texel_m does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, depth_scale) == 136,
+    "offset of ShadowMap.depth_scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(ShadowMap, is_perspective) == 140,
+    "offset of ShadowMap.is_perspective does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct StrokeRange {

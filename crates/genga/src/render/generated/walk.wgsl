@@ -55,6 +55,8 @@ const IN_FRONT: f32 = 2.0;
 
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
+const LIGHT_SKY: u32 = 3u;
+
 const LIGHT_SPOT: u32 = 2u;
 
 const LINE_BORDER: u32 = 16u;
@@ -85,6 +87,7 @@ struct Course {
     outward: vec2f,
     reach: f32,
     own_depth: f32,
+    own_step: f32,
     types: u32,
     known: u32,
     crease: f32,
@@ -136,7 +139,8 @@ struct Draw {
 struct Found {
     sets: u32,
     width: f32,
-    covered: f32
+    covered: f32,
+    is_line: bool
 }
 
 struct Frame {
@@ -174,9 +178,14 @@ struct Light {
     direction: vec4f,
     factors: vec4f,
     kind: u32,
-    reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    shadow_first: u32,
+    shadow_maps: u32,
+    reserved_0: u32
+}
+
+struct LightTerm {
+    term: f32,
+    to_light: vec3f
 }
 
 struct Line {
@@ -265,7 +274,7 @@ struct Piece {
     order: u32,
     link_a: u32,
     link_b: u32,
-    reserved: u32
+    own_step: f32
 }
 
 fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u, key_b: vec2u) -> u32 {
@@ -277,7 +286,7 @@ fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u,
     let s1 = in_space(t1);
     let rest_0 = mix(line.rest_a, line.rest_b, s0);
     let rest_1 = mix(line.rest_a, line.rest_b, s1);
-    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, 0u);
+    pieces[slot] = Piece(mix(line.a, line.b, t0), mix(line.a, line.b, t1), mix(line.depth_a, line.depth_b, t0), mix(line.depth_a, line.depth_b, t1), pack2x16float(vec2f(widths.x * mix(line.widths.x, line.widths.y, s0), widths.y * mix(line.widths.x, line.widths.y, s1))), pack2x16float(vec2f(mix(line.curvatures.x, line.curvatures.y, s0), mix(line.curvatures.x, line.curvatures.y, s1))), rest_0.x, rest_0.y, rest_0.z, rest_1.x, rest_1.y, rest_1.z, base_at(t0, mix(line.lights.x, line.lights.y, s0)), base_at(t1, mix(line.lights.x, line.lights.y, s1)), key_a.x, key_a.y, key_b.x, key_b.y, sets, line.owner, line.order, before, 0u, line.own_step);
     if (before != 0u) {
         pieces[(before - 1u) >> 1u].link_b = 2u * slot + 1u;
     }
@@ -398,10 +407,14 @@ fn is_own_near(p_px: vec2f) -> bool {
 }
 
 fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+    return light.factors.x * light_term(light, p_in_world, normal).term;
+}
+
+fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
-    if (light.kind == LIGHT_DIRECTIONAL) {
-        return factors.x * dot(normal, direction);
+    if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
+        return LightTerm(dot(normal, direction), direction);
     }
     let offset = light.position.xyz - p_in_world;
     let distance_squared = max(dot(offset, offset), 1e-12);
@@ -415,7 +428,7 @@ fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
     }
-    return factors.x * mix(-1.0, dot(normal, to_light), falloff);
+    return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
 }
 
 fn line_depth(frame: Frame, clip: vec4f) -> f32 {
@@ -449,7 +462,7 @@ fn lit(p: vec3f, normal: vec3f) -> f32 {
 }
 
 fn look_up(t: f32) -> Found {
-    let nothing = Found(0u, 0.0, 0.0);
+    let nothing = Found(0u, 0.0, 0.0, false);
     let p_px = mix(line.a, line.b, t);
     if (any(p_px < vec2f(0.0)) || any(p_px > frame.picture_size)) {
         return nothing;
@@ -507,12 +520,13 @@ fn look_up(t: f32) -> Found {
             sets |= 1u << i;
         }
     }
+    let is_line = sets != 0u;
     sets &= own_sets & 15u;
     if (sets == 0u) {
-        return Found(0u, 0.0, covered);
+        return Found(0u, 0.0, covered, is_line);
     }
     let width = strength * look_width(p_px, covered > 0.0);
-    return Found(select(0u, sets, width > 0.0), width, covered);
+    return Found(select(0u, sets, width > 0.0), width, covered, is_line);
 }
 
 fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
@@ -590,11 +604,12 @@ fn set_course(index: u32) {
     line.known = lines[index].types >> 8u;
     line.crease = lines[index].crease;
     line.order = lines[index].order;
-    line.own_depth = lines[index].own_depth;
+    line.own_depth = max(lines[index].own_depth, 0.0);
     var metres = frame.pixel_footprint;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) == 0u) {
         metres /= max(line.depth_a, 1e-30);
     }
+    line.own_step = abs(lines[index].own_depth) / metres;
     line.reach = clamp(1.5 + lines[index].own_width / metres, 1.5, 40.0);
     if (line.types != line.known) {
         let inner = vec3f(lines[index].inner_x, lines[index].inner_y, lines[index].inner_z);
@@ -659,7 +674,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     let end_t = f32(end) / lookups;
     var last = 0u;
     var start = start_t;
-    var state = Found(0u, 0.0, 0.0);
+    var state = Found(0u, 0.0, 0.0, false);
     var next_state = state;
     var started_covered = 0.0;
     var width_sum = 0.0;
@@ -694,7 +709,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             }
         }
         else {
-            if (found.sets != 0u && found.covered == 0.0) {
+            if (found.is_line && found.covered == 0.0) {
                 mark(mix(line.a, line.b, t));
             }
             next_state = found;

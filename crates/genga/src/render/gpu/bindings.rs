@@ -23,6 +23,8 @@ pub(crate) enum Binding {
     Uint,
     /// A depth texture.
     Depth,
+    /// A depth texture with layers.
+    DepthLayers,
     /// A multisampled depth texture.
     DepthSamples,
     /// A storage texture that is written.
@@ -31,6 +33,8 @@ pub(crate) enum Binding {
     WrittenLayers(wgpu::TextureFormat),
     /// A filtering sampler.
     Sampler,
+    /// A sampler that does not filter.
+    NearestSampler,
 }
 
 impl Binding {
@@ -66,6 +70,11 @@ impl Binding {
             },
             Self::Uint => texture(wgpu::TextureSampleType::Uint),
             Self::Depth => texture(wgpu::TextureSampleType::Depth),
+            Self::DepthLayers => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Depth,
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
             Self::DepthSamples => wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Depth,
                 view_dimension: wgpu::TextureViewDimension::D2,
@@ -74,6 +83,9 @@ impl Binding {
             Self::Written(format) => written(format, wgpu::TextureViewDimension::D2),
             Self::WrittenLayers(format) => written(format, wgpu::TextureViewDimension::D2Array),
             Self::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+            Self::NearestSampler => {
+                wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering)
+            }
         }
     }
 }

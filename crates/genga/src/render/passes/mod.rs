@@ -11,6 +11,7 @@ pub(crate) mod paint;
 pub(crate) mod plain;
 pub(crate) mod reference;
 pub(crate) mod seams;
+pub(crate) mod shadow;
 pub(crate) mod strokes;
 pub(crate) mod surface;
 pub(crate) mod walk;

@@ -24,6 +24,12 @@ pub(crate) enum PaintOutput {
     Highlights,
     /// Where on its first highlight's drawing each surface lies, and the distance to its outline.
     Coordinates,
+    /// Surfaces before the ramp.
+    Base,
+    /// What the ramp makes of white surfaces.
+    Tone,
+    /// White where lights reach, black in cast shadows.
+    Shadow,
 }
 
 pub(crate) struct PaintPass {
@@ -77,8 +83,17 @@ impl PaintPass {
         let [opaque, blended] = sorted_items(prepared, aim.eye);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
+            let shadows = prepared.shadows.any();
             let hatch = item.hatch.filter(|_| output_has_ink(output));
-            Variant { highlights, hatch, ..Variant::of(item, samples) }
+            let output = match output {
+                PaintOutput::All | PaintOutput::Plain => 0,
+                PaintOutput::Highlights => 1,
+                PaintOutput::Coordinates => 2,
+                PaintOutput::Base => 3,
+                PaintOutput::Tone => 4,
+                PaintOutput::Shadow => 5,
+            };
+            Variant { highlights, hatch, shadows, output, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);
@@ -110,11 +125,9 @@ fn highlight_variant(
     output: PaintOutput,
 ) -> Option<HighlightVariant> {
     let variant = prepared.highlights.variant(item.highlights);
-    let output = match output {
-        PaintOutput::All => return (variant.count > 0).then_some(variant),
-        PaintOutput::Plain => return None,
-        PaintOutput::Highlights => 1,
-        PaintOutput::Coordinates => 2,
-    };
-    Some(HighlightVariant { output, ..variant })
+    match output {
+        PaintOutput::All => (variant.count > 0).then_some(variant),
+        PaintOutput::Highlights | PaintOutput::Coordinates => Some(variant),
+        PaintOutput::Plain | PaintOutput::Base | PaintOutput::Tone | PaintOutput::Shadow => None,
+    }
 }

@@ -25,6 +25,10 @@ pub(crate) struct Variant {
     pub(crate) samples: u32,
     /// With highlights on top; `None` for a pipeline that knows nothing of them.
     pub(crate) highlights: Option<HighlightVariant>,
+    /// With cast shadows.
+    pub(crate) shadows: bool,
+    /// An `OUTPUT_*` of `paint.wesl`.
+    pub(crate) output: u32,
     /// With ink over the ramp; `None` for a pipeline that knows nothing of it.
     pub(crate) hatch: Option<HatchVariant>,
 }
@@ -56,16 +60,24 @@ pub(crate) struct HighlightVariant {
     pub(crate) blends_normals: bool,
     pub(crate) is_reshaped: bool,
     pub(crate) replaces: bool,
+    pub(crate) has_tone: bool,
     pub(crate) has_mask: bool,
-    /// An `OUTPUT_*` of `paint.wesl`.
-    pub(crate) output: u32,
 }
 
 impl Variant {
     /// As the material of a draw asks.
     pub(crate) fn of(item: &DrawItem, samples: u32) -> Self {
         let cull = (!item.double_sided).then_some(wgpu::Face::Back);
-        Self { mirrored: item.mirrored, cull, blend: false, samples, highlights: None, hatch: None }
+        Self {
+            mirrored: item.mirrored,
+            cull,
+            blend: false,
+            samples,
+            highlights: None,
+            shadows: false,
+            output: 0,
+            hatch: None,
+        }
     }
 }
 
@@ -152,6 +164,10 @@ impl SurfacePipelines {
         let hatch = variant.hatch.unwrap_or_default();
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
+        let shading = [
+            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("OUTPUT", f64::from(variant.output)),
+        ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
             ("HATCH_HAS_CROSS", yes(hatch.has_cross)),
@@ -172,8 +188,8 @@ impl SurfacePipelines {
             ("BLENDS_NORMALS", yes(highlights.blends_normals)),
             ("IS_RESHAPED", yes(highlights.is_reshaped)),
             ("REPLACES", yes(highlights.replaces)),
+            ("HAS_TONE", yes(highlights.has_tone)),
             ("HAS_MASK", yes(highlights.has_mask)),
-            ("OUTPUT", f64::from(highlights.output)),
         ];
         let mut constants: Vec<(&str, f64)> = Vec::new();
         if variant.highlights.is_some() {
@@ -182,6 +198,8 @@ impl SurfacePipelines {
         if hatched.is_some() {
             constants.extend(hatch_constants);
         }
+        // Only the paint pass has these.
+        constants.extend(shading.into_iter().filter(|(_, value)| *value != 0.0));
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
             layout: Some(layout),

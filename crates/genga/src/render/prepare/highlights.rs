@@ -7,7 +7,7 @@ use glam::{Affine3A, DMat2, DVec2, Mat2, Mat3, Vec2, Vec3, Vec4};
 use super::{Prepared, lights::PlacedLight, looks::in_blend_space};
 use crate::render::{
     View,
-    generated::{self as gpu, HighlightBlock, LIGHT_DIRECTIONAL, Light},
+    generated::{self as gpu, HighlightBlock, LIGHT_DIRECTIONAL, LIGHT_SKY, Light},
     gpu::bindings,
     layouts::Layouts,
     passes::surface::HighlightVariant,
@@ -237,7 +237,8 @@ impl Highlights {
             variant.has_normal_map |= layers.normal_map >= 0;
             variant.blends_normals |= highlight.gamma < 1.0;
             variant.replaces |= highlight.blend == HighlightBlend::Replace;
-            variant.has_mask |= layers.mask >= 0 || highlight.tone != HighlightTone::All;
+            variant.has_tone |= highlight.tone != HighlightTone::All;
+            variant.has_mask |= layers.mask >= 0;
         }
         variant
     }
@@ -268,7 +269,7 @@ impl Highlights {
         let wanted = self.items.get(index)?.light;
         let number = placed.iter().position(|light| Some(light.node) == wanted).unwrap_or(0);
         let to_light = lights.get(number).or(lights.first()).map_or(Vec3::Y, |light| {
-            if light.kind == LIGHT_DIRECTIONAL {
+            if light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY {
                 light.direction.truncate()
             } else {
                 light.position.truncate() - frame.center

@@ -2,7 +2,7 @@
 
 use glam::{Affine3A, Vec3, Vec4};
 
-use crate::render::generated::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT, Light};
+use crate::render::generated::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SKY, LIGHT_SPOT, Light};
 use crate::scene::{LightKind, Pose, Scene};
 use crate::style::{PinnedTo, StyleLight};
 
@@ -15,12 +15,14 @@ pub(crate) struct PlacedLight {
     strength: f32,
     world_from_light: Affine3A,
     pinned_to_camera: bool,
+    casts_shadow: bool,
 }
 
 /// Lights that the shaders take at once.
 pub(crate) const MAX_LIGHTS: usize = 16;
 
-/// The lights of a posed scene, the strongest first; empty if the style's own light is to be used.
+/// The lights of a posed scene, the strongest first and skies last; empty if the style's own light
+/// is to be used alone.
 pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> Vec<PlacedLight> {
     if style.replace_model_lights {
         return Vec::new();
@@ -36,28 +38,32 @@ pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> V
                 strength: (light.intensity * luminance).max(0.0),
                 world_from_light: pose.world_from_node[i],
                 pinned_to_camera: light.pinned_to_camera,
+                casts_shadow: light.casts_shadow,
             })
         })
         .filter(|light| light.strength > 0.0)
         .collect();
-    lights.sort_by(|a, b| b.strength.total_cmp(&a.strength));
+    let is_sky = |light: &PlacedLight| light.kind == LightKind::Sky;
+    lights.sort_by(|a, b| is_sky(a).cmp(&is_sky(b)).then(b.strength.total_cmp(&a.strength)));
     lights
 }
 
-/// The lights for a camera. Their weights `w_i` add up to 1.
+/// The lights for a camera. Their weights `w_i` add up to 1. Where there are only skies, the
+/// style's own light comes before them, as strong as an intensity of 1.
 pub(crate) fn lights_in_view(
     placed: &[PlacedLight],
     style: &StyleLight,
     world_from_camera: &Affine3A,
 ) -> Vec<Light> {
-    if placed.is_empty() {
-        return vec![style_light(style, world_from_camera)];
-    }
-    let placed = &placed[..placed.len().min(MAX_LIGHTS)];
-    let total: f32 = placed.iter().map(|light| light.strength).sum();
-    placed
-        .iter()
-        .map(|light| {
+    let has_own = placed.iter().any(|light| light.kind != LightKind::Sky);
+    let room = if has_own { MAX_LIGHTS } else { MAX_LIGHTS - 1 };
+    let placed = &placed[..placed.len().min(room)];
+    let of_style = if has_own { 0.0 } else { 1.0 };
+    let total = of_style + placed.iter().map(|light| light.strength).sum::<f32>();
+    let of_style = (!has_own).then(|| style_light(style, of_style / total, world_from_camera));
+    of_style
+        .into_iter()
+        .chain(placed.iter().map(|light| {
             let frame = if light.pinned_to_camera {
                 *world_from_camera * light.world_from_light
             } else {
@@ -71,6 +77,10 @@ pub(crate) fn lights_in_view(
                 LightKind::Spot { range, inner_angle, outer_angle } => {
                     (LIGHT_SPOT, -back, range, [inner_angle.cos(), outer_angle.cos()])
                 }
+                LightKind::Sky => {
+                    let up = Vec3::from(frame.matrix3.y_axis).normalize_or(Vec3::Y);
+                    (LIGHT_SKY, up, None, [1.0, 0.0])
+                }
             };
             Light {
                 position: Vec3::from(frame.translation).extend(1.0),
@@ -82,15 +92,28 @@ pub(crate) fn lights_in_view(
                     cones[1],
                 ),
                 kind,
+                shadow_first: 0,
+                shadow_maps: if light.casts_shadow { shadow_maps(light.kind) } else { 0 },
                 reserved_0: 0,
-                reserved_1: 0,
-                reserved_2: 0,
             }
-        })
+        }))
         .collect()
 }
 
-fn style_light(style: &StyleLight, world_from_camera: &Affine3A) -> Light {
+/// Half angle in radians up to which a spot's cone is one shadow map; wider ones take a cube.
+const WIDEST_MAP: f32 = 1.1;
+
+/// How many shadow maps a light needs.
+pub(crate) fn shadow_maps(kind: LightKind) -> u32 {
+    match kind {
+        LightKind::Directional => 1,
+        LightKind::Spot { outer_angle, .. } if outer_angle <= WIDEST_MAP => 1,
+        LightKind::Spot { .. } | LightKind::Point { .. } => 6,
+        LightKind::Sky => 0,
+    }
+}
+
+fn style_light(style: &StyleLight, weight: f32, world_from_camera: &Affine3A) -> Light {
     let (sin_a, cos_a) = style.azimuth_deg.to_radians().sin_cos();
     let (sin_e, cos_e) = style.elevation_deg.to_radians().sin_cos();
     let mut direction = Vec3::new(sin_a * cos_e, sin_e, cos_a * cos_e);
@@ -100,10 +123,10 @@ fn style_light(style: &StyleLight, world_from_camera: &Affine3A) -> Light {
     Light {
         position: Vec4::ZERO,
         direction: direction.normalize_or(Vec3::Y).extend(0.0),
-        factors: Vec4::new(1.0, 0.0, 1.0, 0.0),
+        factors: Vec4::new(weight, 0.0, 1.0, 0.0),
         kind: LIGHT_DIRECTIONAL,
+        shadow_first: 0,
+        shadow_maps: shadow_maps(LightKind::Directional),
         reserved_0: 0,
-        reserved_1: 0,
-        reserved_2: 0,
     }
 }

@@ -26,6 +26,8 @@ pub(crate) struct LookRange {
     pub(crate) look_first: u32,
     pub(crate) rule_first: u32,
     pub(crate) rule_count: u32,
+    /// Whether it casts shadows.
+    pub(crate) casts_shadow: bool,
     /// Picture of the id-texture selectors, if there are any.
     pub(crate) id_image: Option<Arc<Image>>,
     pub(crate) hatch: HatchRange,
@@ -183,7 +185,16 @@ impl<'a> Looks<'a> {
             let look = self.look(&paint, &lines);
             self.looks.push(look);
         }
-        LookRange { look_first, rule_first, rule_count: per_pixel.len() as u32, id_image, hatch }
+        let by_name = overrides.iter().filter(|o| !o.select.is_per_pixel());
+        let casts_shadow = by_name.filter_map(|o| o.paint.shadow.cast).next_back().unwrap_or(true);
+        LookRange {
+            look_first,
+            rule_first,
+            rule_count: per_pixel.len() as u32,
+            casts_shadow,
+            id_image,
+            hatch,
+        }
     }
 
     fn look(&mut self, paint: &Paint, lines: &LineLook) -> Look {
@@ -209,6 +220,10 @@ impl<'a> Looks<'a> {
         look.tones[..tones.len()].copy_from_slice(&tones);
         look.gain = paint.ramp.gain;
         look.shade_bias = paint.shade_bias;
+        look.shadow_tone = paint.shadow.tone;
+        if !paint.shadow.receive {
+            look.flags |= gpu::LOOK_UNSHADOWED;
+        }
         let Lines { rim, hull, .. } = &self.style.lines;
         look.line_width = if lines.visible { lines.width } else { 0.0 };
         look.line_id = u32::from(lines.line_id);
@@ -277,6 +292,12 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     }
     if let Some(bias) = o.paint.shade_bias {
         paint.shade_bias = bias;
+    }
+    if let Some(tone) = o.paint.shadow.tone {
+        paint.shadow.tone = tone;
+    }
+    if let Some(receive) = o.paint.shadow.receive {
+        paint.shadow.receive = receive;
     }
     if let Some(visible) = o.lines.visible {
         lines.visible = visible;

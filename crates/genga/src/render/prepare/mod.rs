@@ -6,6 +6,7 @@ pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
+pub(crate) mod shadows;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
@@ -22,6 +23,7 @@ use self::{
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
+    shadows::Shadows,
     strokes::StrokeData,
     textures::Textures,
     waves::WaveData,
@@ -48,6 +50,7 @@ pub struct Prepared {
     /// Group 0 of the passes that draw surfaces.
     pub(crate) surface_group: wgpu::BindGroup,
     pub(crate) lights: Vec<PlacedLight>,
+    pub(crate) shadows: Shadows,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
@@ -71,6 +74,9 @@ pub(crate) struct DrawItem {
     pub(crate) double_sided: bool,
     pub(crate) blend: bool,
     pub(crate) mirrored: bool,
+    pub(crate) casts_shadow: bool,
+    /// Whether parts of it may be cut out or see-through.
+    pub(crate) tests_alpha: bool,
     /// Middle in world space, for sorting.
     pub(crate) center: Vec3,
     /// Its first joint matrix.
@@ -343,6 +349,8 @@ impl<'a> Builder<'a> {
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
+                    casts_shadow: look.casts_shadow,
+                    tests_alpha: material.alpha != AlphaMode::Opaque,
                     center: chunk.center,
                     matrix_first,
                     hatch: look.hatch.variant,
@@ -475,6 +483,9 @@ impl<'a> Builder<'a> {
         let light_data =
             bindings::buffer(device, queue, "lights", uniform, &[no_light; MAX_LIGHTS]);
         let ramps = ramp_texture(device, self.queue, &self.looks.ramp_rows);
+        let wanted = shadows::maps_needed(self.scene, pose, self.style);
+        let resolution = self.style.paint.shadow.resolution;
+        let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
         let surface_group = bindings::group(
             device,
             "surfaces",
@@ -486,6 +497,9 @@ impl<'a> Builder<'a> {
                 (3, rule_data.as_entire_binding()),
                 (4, light_data.as_entire_binding()),
                 (5, wgpu::BindingResource::TextureView(&ramps)),
+                (6, shadows.values.as_entire_binding()),
+                (7, wgpu::BindingResource::TextureView(&shadows.depths)),
+                (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -499,6 +513,13 @@ impl<'a> Builder<'a> {
             warnings.push(format!(
                 "the scene has {} lights; only the {MAX_LIGHTS} strongest ones are used",
                 lights.len()
+            ));
+        }
+        if wanted > shadows::MAX_MAPS {
+            warnings.push(format!(
+                "the scene's lights need {wanted} shadow maps (one a light, six a point light), more \
+                 than {}: the weaker lights cast no shadows",
+                shadows::MAX_MAPS
             ));
         }
         let curves = |set: &LineSet| -> f32 {
@@ -532,6 +553,7 @@ impl<'a> Builder<'a> {
             light_data,
             surface_group,
             lights,
+            shadows,
             deform,
             strokes,
             highlights,

@@ -1,0 +1,446 @@
+//! Shadow maps: which light has which, and where they look.
+
+use glam::{Affine3A, DMat4, DVec2, DVec3, DVec4, Mat4};
+
+use super::Prepared;
+use crate::render::{
+    View,
+    generated::{LIGHT_DIRECTIONAL, LIGHT_SPOT, Light, ShadowMap},
+    gpu::bindings,
+    layouts::Layouts,
+    targets::DEPTH_FORMAT,
+    view::Projected,
+};
+use crate::scene::{Aabb, Pose, Scene};
+use crate::style::Style;
+
+/// Most shadow maps of one frame, as in `shaders/lib/bindings.wesl`.
+pub(crate) const MAX_MAPS: usize = 16;
+/// Texels round what a map must show, for the taps and the snapping of its origin.
+const BORDER: f64 = 6.0;
+
+/// The shadow maps of a prepared scene.
+pub(crate) struct Shadows {
+    /// One layer a map; a single texel without shadows.
+    pub(crate) depths: wgpu::TextureView,
+    pub(crate) nearest: wgpu::Sampler,
+    /// All maps, for the passes that read them.
+    pub(crate) values: wgpu::Buffer,
+    /// What the shadow pass draws into, and its uniforms; empty without shadows.
+    pub(crate) layers: Vec<wgpu::TextureView>,
+    uniforms: wgpu::Buffer,
+    /// Texels of a layer's side.
+    resolution: u32,
+    /// Group 0 of the shadow pass.
+    pub(crate) group: wgpu::BindGroup,
+}
+
+impl Shadows {
+    /// Makes as many maps as the scene's lights need.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layouts: &Layouts,
+        draws: &wgpu::Buffer,
+        wanted: usize,
+        resolution: u32,
+    ) -> Self {
+        use wgpu::{BufferUsages as Usage, TextureUsages};
+        let count = wanted.min(MAX_MAPS);
+        let resolution = if count == 0 { 1 } else { resolution };
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("shadow maps"),
+            size: wgpu::Extent3d {
+                width: resolution,
+                height: resolution,
+                depth_or_array_layers: count.max(1) as u32,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: DEPTH_FORMAT,
+            usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let layer = |layer: usize| {
+            texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2),
+                base_array_layer: layer as u32,
+                array_layer_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let none: ShadowMap = bytemuck::Zeroable::zeroed();
+        let uniforms = bindings::dynamic_uniforms(device, queue, "shadow map", &[none; MAX_MAPS]);
+        Self {
+            depths: texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            }),
+            nearest: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("nearest"),
+                ..Default::default()
+            }),
+            values: bindings::buffer(
+                device,
+                queue,
+                "shadow maps",
+                Usage::UNIFORM,
+                &[none; MAX_MAPS],
+            ),
+            layers: (0..count).map(layer).collect(),
+            resolution,
+            group: bindings::group(
+                device,
+                "shadow",
+                &layouts.shadow,
+                &[
+                    (0, super::dynamic_binding::<ShadowMap>(&uniforms)),
+                    (1, draws.as_entire_binding()),
+                ],
+            ),
+            uniforms,
+        }
+    }
+
+    /// Whether anything is drawn and looked up.
+    pub(crate) fn any(&self) -> bool {
+        !self.layers.is_empty()
+    }
+
+    /// Shares the maps out among the lights and writes where they look. Returns how many texels
+    /// along a side each of them has.
+    pub(crate) fn write(
+        &self,
+        queue: &wgpu::Queue,
+        prepared: &Prepared,
+        view: &View,
+        projected: &Projected,
+        lights: &mut [Light],
+    ) -> Vec<u32> {
+        let texels = used_texels(view).min(self.resolution);
+        let mut maps: Vec<ShadowMap> = Vec::new();
+        for light in lights {
+            let count = std::mem::take(&mut light.shadow_maps);
+            let Some(bounds) = prepared.bounds else { continue };
+            if count == 0 || maps.len() + count as usize > self.layers.len() {
+                continue;
+            }
+            light.shadow_first = maps.len() as u32;
+            light.shadow_maps = count;
+            match light.kind {
+                LIGHT_DIRECTIONAL => maps.push(parallel(light, &bounds, projected, texels)),
+                kind => {
+                    // Of the size of a pixel where the scene is.
+                    let center = 0.5 * (bounds.min + bounds.max);
+                    let pixel = projected.pixel_at(center) / view.supersample.max(1) as f32;
+                    let away = light.position.truncate().distance(center);
+                    let is_cone = kind == LIGHT_SPOT && count == 1;
+                    let tangent = if is_cone { outer_angle(light).tan() as f32 } else { 1.0 };
+                    let wanted = 2.0 * tangent * away / pixel.max(1e-12);
+                    let texels = (wanted.min(8192.0) as u32).next_power_of_two();
+                    let texels = texels.clamp(256.min(self.resolution), self.resolution);
+                    if is_cone {
+                        maps.push(cone(light, &bounds, texels));
+                    } else {
+                        maps.extend(cube(light, &bounds, texels));
+                    }
+                }
+            }
+        }
+        let stride = bindings::DYNAMIC_STRIDE;
+        for (i, map) in maps.iter().enumerate() {
+            queue.write_buffer(&self.uniforms, i as u64 * stride, bytemuck::bytes_of(map));
+        }
+        queue.write_buffer(&self.values, 0, bytemuck::cast_slice(&maps));
+        maps.iter().map(|map| map.texels as u32).collect()
+    }
+}
+
+/// Texels of a map of all that is in view. Between one and two pixels' worth of texels are smoothed
+/// to an edge, so texels much smaller than pixels would leave it jagged.
+fn used_texels(view: &View) -> u32 {
+    let longest = view.size[0].max(view.size[1]).max(1) * view.supersample.max(1);
+    longest.next_power_of_two().max(256)
+}
+
+/// Half angle of a spot's cone in radians.
+fn outer_angle(light: &Light) -> f64 {
+    f64::from(light.factors.w).clamp(-1.0, 1.0).acos()
+}
+
+/// How many maps the lights of a scene need, if the style has shadows.
+pub(crate) fn maps_needed(scene: &Scene, pose: &Pose, style: &Style) -> usize {
+    if !style.paint.shadow.enabled {
+        return 0;
+    }
+    let placed = super::lights::placed_lights(scene, pose, &style.light);
+    let lights = super::lights::lights_in_view(&placed, &style.light, &Affine3A::IDENTITY);
+    lights.iter().map(|light| light.shadow_maps as usize).sum()
+}
+
+/// Parallel rays onto what is in view of the scene.
+///
+/// The grid of texels stands still in the world: its axes come from the light alone, its texels
+/// have one of few sizes, and its origin is a whole number of them. So edges do not swim when the
+/// camera moves.
+fn parallel(light: &Light, bounds: &Aabb, projected: &Projected, texels: u32) -> ShadowMap {
+    let back = light.direction.truncate().as_dvec3().normalize_or(DVec3::Y);
+    let axes = axes_of(back);
+    let in_light = |p: DVec3| DVec3::new(p.dot(axes[0]), p.dot(axes[1]), p.dot(back));
+    let corners = corners(bounds);
+    let mut seen = in_view(&corners, projected.clip_from_world.as_dmat4());
+    if seen.is_empty() {
+        seen = corners.to_vec();
+    }
+    let extent = |points: &[DVec3]| {
+        points
+            .iter()
+            .map(|&p| in_light(p))
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| {
+                (low.min(p), high.max(p))
+            })
+    };
+    let ((low, high), (all_low, all_high)) = (extent(&seen), extent(&corners));
+    let used = f64::from(texels) - 2.0 * BORDER;
+    let texel = (high - low).truncate().map(|side| {
+        // Steps of a fifth.
+        let side = side.max(1e-9);
+        2_f64.powf((4.0 * side.log2()).ceil() / 4.0) / used
+    });
+    let origin = (low.truncate() / texel).floor() * texel - BORDER * texel;
+    let size = texel * f64::from(texels);
+    let margin = 1e-3 * (all_high.z - all_low.z).max(1e-9) + texel.max_element() * 4.0;
+    let (near, far) = (all_high.z + margin, all_low.z - margin);
+    let depth = 1.0 / (near - far);
+    let scale = DVec2::new(2.0, 2.0) / size;
+    let row = |axis: DVec3, scale: f64, offset: f64| (axis * scale).extend(offset);
+    let clip_from_world = DMat4::from_cols(
+        row(axes[0], scale.x, -origin.x * scale.x - 1.0),
+        row(axes[1], scale.y, -origin.y * scale.y - 1.0),
+        row(back, depth, -far * depth),
+        DVec4::W,
+    )
+    .transpose();
+    shadow_map(clip_from_world, texels, texel.max_element(), depth, false)
+}
+
+/// A spot's cone.
+fn cone(light: &Light, bounds: &Aabb, texels: u32) -> ShadowMap {
+    let back = -light.direction.truncate().as_dvec3().normalize_or(DVec3::NEG_Z);
+    perspective(light, back, axes_of(back), outer_angle(light).tan(), bounds, texels)
+}
+
+/// The six sides of a cube round a light: +X, −X, +Y, −Y, +Z, −Z.
+fn cube(light: &Light, bounds: &Aabb, texels: u32) -> [ShadowMap; 6] {
+    let sides = [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z];
+    sides.map(|side| perspective(light, -side, axes_of(-side), 1.0, bounds, texels))
+}
+
+fn perspective(
+    light: &Light,
+    back: DVec3,
+    axes: [DVec3; 2],
+    tangent: f64,
+    bounds: &Aabb,
+    texels: u32,
+) -> ShadowMap {
+    let at = light.position.truncate().as_dvec3();
+    let farthest = corners(bounds).iter().map(|p| p.distance(at)).fold(0.0, f64::max);
+    let near = (1e-4 * farthest).max(1e-9);
+    // The border lies outside of the cone.
+    let tangent = tangent * f64::from(texels) / (f64::from(texels) - 2.0 * BORDER);
+    let row = |axis: DVec3, scale: f64| (axis * scale).extend(-axis.dot(at) * scale);
+    let clip_from_world = DMat4::from_cols(
+        row(axes[0], 1.0 / tangent),
+        row(axes[1], 1.0 / tangent),
+        DVec4::W * near,
+        row(-back, 1.0),
+    )
+    .transpose();
+    shadow_map(clip_from_world, texels, 2.0 * tangent / f64::from(texels), near, true)
+}
+
+fn shadow_map(
+    clip_from_world: DMat4,
+    texels: u32,
+    texel_m: f64,
+    depth_scale: f64,
+    is_perspective: bool,
+) -> ShadowMap {
+    ShadowMap {
+        clip_from_world: clip_from_world.as_mat4(),
+        clip_from_plane: finite(clip_from_world.inverse().transpose().as_mat4()),
+        texels: texels as f32,
+        texel_m: texel_m as f32,
+        depth_scale: depth_scale as f32,
+        is_perspective: f32::from(u8::from(is_perspective)),
+    }
+}
+
+fn finite(matrix: Mat4) -> Mat4 {
+    if matrix.is_finite() { matrix } else { Mat4::IDENTITY }
+}
+
+/// Two axes across a direction that depend on nothing else.
+fn axes_of(back: DVec3) -> [DVec3; 2] {
+    let up = if back.y.abs() > 0.99 { DVec3::Z } else { DVec3::Y };
+    let right = up.cross(back).normalize_or(DVec3::X);
+    [right, back.cross(right)]
+}
+
+/// The corners of a box, without sides of no length.
+fn corners(bounds: &Aabb) -> [DVec3; 8] {
+    let (low, high) = (bounds.min.as_dvec3(), bounds.max.as_dvec3());
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f64, high: f64| if i & bit == 0 { low } else { high };
+        DVec3::new(pick(1, low.x, high.x), pick(2, low.y, high.y), pick(4, low.z, high.z))
+    })
+}
+
+/// The corners of the part of a box that a view shows; none if it shows none of it.
+fn in_view(corners: &[DVec3; 8], clip_from_world: DMat4) -> Vec<DVec3> {
+    let rows = clip_from_world.transpose();
+    let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
+    let planes = [w + x, w - x, w + y, w - y, w - z];
+    let sides =
+        [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+    let mut seen = Vec::new();
+    for side in sides {
+        let mut polygon: Vec<DVec3> = side.iter().map(|&corner| corners[corner]).collect();
+        for plane in planes {
+            polygon = clipped(&polygon, plane);
+        }
+        seen.extend(polygon);
+    }
+    // From inside of the box, the view's own corners at the near plane.
+    let (low, high) = (corners[0], corners[7]);
+    let world_from_clip = clip_from_world.inverse();
+    for [x, y] in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
+        let p = world_from_clip.project_point3(DVec3::new(x, y, 1.0));
+        if p.is_finite() && p.cmpge(low).all() && p.cmple(high).all() {
+            seen.push(p);
+        }
+    }
+    seen
+}
+
+/// The part of a polygon on the positive side of a plane (Sutherland and Hodgman 1974).
+fn clipped(polygon: &[DVec3], plane: DVec4) -> Vec<DVec3> {
+    let distance = |p: DVec3| plane.dot(p.extend(1.0));
+    let mut kept = Vec::with_capacity(polygon.len() + 1);
+    for (i, &a) in polygon.iter().enumerate() {
+        let b = polygon[(i + 1) % polygon.len()];
+        let (da, db) = (distance(a), distance(b));
+        if da >= 0.0 {
+            kept.push(a);
+        }
+        if (da < 0.0) != (db < 0.0) {
+            kept.push(a.lerp(b, da / (da - db)));
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec3, Vec4};
+
+    use super::*;
+    use crate::render::ViewCamera;
+    use crate::scene::Projection;
+
+    fn sun(direction: Vec3) -> Light {
+        let mut light: Light = bytemuck::Zeroable::zeroed();
+        light.direction = direction.normalize_or(Vec3::Y).extend(0.0);
+        light.kind = LIGHT_DIRECTIONAL;
+        light
+    }
+
+    fn seen_from(x: f32, bounds: &Aabb) -> Projected {
+        let camera = ViewCamera {
+            world_from_camera: Affine3A::from_translation(Vec3::new(x, 0.5, 6.0)),
+            projection: Projection::Perspective { fov_y: 0.4 },
+            near: 0.1,
+        };
+        Projected::new(&camera, [200, 100], Some(*bounds))
+    }
+
+    const BOUNDS: Aabb = Aabb { min: Vec3::new(-9.0, 0.0, -9.0), max: Vec3::new(9.0, 2.0, 3.0) };
+
+    #[test]
+    fn what_is_in_view_lies_in_the_map() {
+        for direction in [Vec3::new(0.3, 1.0, 0.2), Vec3::Y, Vec3::new(-1.0, 0.1, 0.0)] {
+            let projected = seen_from(0.3, &BOUNDS);
+            let map = parallel(&sun(direction), &BOUNDS, &projected, 512);
+            let mut inside = 0;
+            for i in 0..20_u8 {
+                for j in 0..20_u8 {
+                    let (x, z) = (0.9 * f32::from(i) - 8.55, 0.6 * f32::from(j) - 8.7);
+                    let p = Vec3::new(x, 0.0, z);
+                    let clip = projected.clip_from_world * p.extend(1.0);
+                    if clip.x.abs() > clip.w || clip.y.abs() > clip.w || clip.z > clip.w {
+                        continue;
+                    }
+                    inside += 1;
+                    let ndc = (map.clip_from_world * p.extend(1.0)).truncate();
+                    assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0, "{p} is at {ndc}");
+                    assert!(ndc.z > 0.0 && ndc.z < 1.0, "{p} is at {ndc}");
+                }
+            }
+            assert!(inside > 10, "the view shows something: {inside}");
+        }
+    }
+
+    #[test]
+    fn the_grid_of_texels_stands_still_when_the_camera_moves() {
+        let light = sun(Vec3::new(0.3, 1.0, 0.2));
+        let texel_of = |x: f32| {
+            let map = parallel(&light, &BOUNDS, &seen_from(x, &BOUNDS), 512);
+            let ndc = map.clip_from_world.as_dmat4() * DVec4::new(0.1, 0.2, 0.3, 1.0);
+            let place = (ndc.truncate().truncate() * 0.5 + 0.5) * 512.0;
+            (map.texel_m, place - place.floor())
+        };
+        let (size, first) = texel_of(0.0);
+        for i in 1..30_u8 {
+            let (now, place) = texel_of(0.004 * f32::from(i));
+            if now == size {
+                let off = (place - first).abs();
+                let off = off.min(1.0 - off);
+                assert!(off.max_element() < 0.01, "step {i}: {place} and {first}");
+            }
+        }
+    }
+
+    #[test]
+    fn planes_keep_their_points_in_every_map() {
+        let mut lamp: Light = bytemuck::Zeroable::zeroed();
+        lamp.position = Vec4::new(1.0, 4.0, 2.0, 1.0);
+        lamp.direction = Vec3::new(-0.2, -1.0, -0.3).normalize_or(Vec3::Y).extend(0.0);
+        lamp.factors = Vec4::new(1.0, 0.0, 0.9, 0.7);
+        let all = [
+            parallel(&sun(Vec3::ONE), &BOUNDS, &seen_from(0.0, &BOUNDS), 512),
+            cone(&lamp, &BOUNDS, 512),
+        ];
+        for map in all.into_iter().chain(cube(&lamp, &BOUNDS, 512)) {
+            let normal = Vec3::new(0.2, 0.9, -0.3).normalize_or(Vec3::Y);
+            let p = Vec3::new(0.4, 0.1, -0.7);
+            let other = p + normal.any_orthonormal_vector() * 0.3;
+            let plane = map.clip_from_plane * normal.extend(-normal.dot(p));
+            for point in [p, other] {
+                let clip = map.clip_from_world * point.extend(1.0);
+                let off = plane.dot(clip) / (plane.length() * clip.length());
+                assert!(off.abs() < 1e-4, "{off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_view_from_inside_sees_its_near_corners() {
+        let bounds = Aabb { min: Vec3::splat(-50.0), max: Vec3::splat(50.0) };
+        let projected = seen_from(0.0, &bounds);
+        let seen = in_view(&corners(&bounds), projected.clip_from_world.as_dmat4());
+        let nearest = seen.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+        assert!((nearest - 5.9).abs() < 1e-3, "{nearest}");
+    }
+}
