@@ -37,6 +37,9 @@ enum Task {
         /// Only the sheets of highlights
         #[arg(long)]
         highlights: bool,
+        /// Only the sheets of hatching
+        #[arg(long)]
+        hatching: bool,
     },
     /// List test pictures that differ from the expected ones
     Snapshots {
@@ -89,7 +92,7 @@ fn run(task: Task) -> Result<()> {
     match task {
         Task::Demo => gallery::demo(root),
         Task::Test => check::test(root),
-        Task::Gallery { highlights } => gallery::gallery(root, highlights),
+        Task::Gallery { highlights, hatching } => gallery::gallery(root, highlights, hatching),
         Task::Snapshots { update } => snapshots::snapshots(root, update),
         Task::Verify => {
             let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];

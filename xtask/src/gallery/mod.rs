@@ -1,5 +1,6 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod hatching;
 mod highlights;
 mod lines;
 mod waves;
@@ -23,8 +24,12 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed.
-pub(crate) fn gallery(root: &Path, only_highlights: bool) -> Result<()> {
+pub(crate) fn gallery(root: &Path, only_highlights: bool, only_hatching: bool) -> Result<()> {
     let folder = root.join("assets/gallery");
+    if only_hatching {
+        let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
+        return hatching::sheets(root, &folder, &genga);
+    }
     if only_highlights {
         return highlights::sheets(root, &folder);
     }
@@ -32,6 +37,7 @@ pub(crate) fn gallery(root: &Path, only_highlights: bool) -> Result<()> {
     lines::draw(root, &folder)?;
     let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
     waves::draw(root, &genga)?;
+    hatching::sheets(root, &folder, &genga)?;
     println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
     highlights::sheets(root, &folder)
 }

@@ -148,11 +148,7 @@ fn pierces(a: DVec3, b: DVec3, [p, q, r]: [DVec3; 3]) -> bool {
 
 /// Pairs of triangles that cut each other in a pose, by parts: how many, and where in the bind pose
 /// the first one is.
-fn cuts(
-    all: &Triangles,
-    bones: &[Bone],
-    pose: &Pose,
-) -> BTreeMap<(usize, usize), (usize, DVec3)> {
+fn cuts(all: &Triangles, bones: &[Bone], pose: &Pose) -> BTreeMap<(usize, usize), (usize, DVec3)> {
     const CELL: f64 = 0.02;
     let placed = pose.place(bones);
     let moved: Vec<DVec3> =
@@ -256,7 +252,13 @@ fn dbg_scan() {
             let (u, l) = (at(LOWER_ARM) - at(UPPER_ARM), at(HAND) - at(LOWER_ARM));
             let h = at(FINGERS) - at(HAND);
             let t = at(LOWER_LEG) - at(UPPER_LEG);
-            o += &format!(" elbow {:.0} wrist {:.0} arm-down {:.0} hip {:.0} |", ang(u, l), ang(l, h), ang(u, -DVec3::Y), ang(t, -pl.turns[0].y_axis));
+            o += &format!(
+                " elbow {:.0} wrist {:.0} arm-down {:.0} hip {:.0} |",
+                ang(u, l),
+                ang(l, h),
+                ang(u, -DVec3::Y),
+                ang(t, -pl.turns[0].y_axis)
+            );
         }
         eprintln!("{n}:{o}");
     }
@@ -264,6 +266,11 @@ fn dbg_scan() {
     for i in 16..=30 {
         pose.arms[0].fist = f64::from(i) * 0.05;
         pose.arms[1].fist = f64::from(i) * 0.05;
-        eprintln!("fist {:.2} {:?} {:?}", pose.arms[0].fist, cuts(&all, &bones, &pose).get(&(4, 4)), cuts(&all, &bones, &pose).get(&(10, 10)));
+        eprintln!(
+            "fist {:.2} {:?} {:?}",
+            pose.arms[0].fist,
+            cuts(&all, &bones, &pose).get(&(4, 4)),
+            cuts(&all, &bones, &pose).get(&(10, 10))
+        );
     }
 }

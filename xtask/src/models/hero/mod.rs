@@ -22,9 +22,7 @@ use std::collections::BTreeMap;
 use glam::{DVec3, Mat4, Vec3};
 
 use super::glb::{MaterialId, Model, NodeId, Surface};
-use super::sculpt::{
-    Imprinted, Part, Region, imprint, polygonise, relax, remesh, smooth_step,
-};
+use super::sculpt::{Imprinted, Part, Region, imprint, polygonise, relax, remesh, smooth_step};
 use body::{Body, Wardrobe, edge_length};
 use weights::Weights;
 

@@ -156,6 +156,8 @@ const OUTPUT_COORDINATES: u32 = 2u;
 
 const OUTPUT_HIGHLIGHT: u32 = 1u;
 
+const OUTPUT_INK: u32 = 6u;
+
 const OUTPUT_PICTURE: u32 = 0u;
 
 const OUTPUT_SHADOW: u32 = 5u;
@@ -1432,7 +1434,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if ((draw_flags & DRAW_ALPHA_BLEND) != 0u) {
         alpha = saturate(material.alpha);
     }
-    if ((look_flags & LOOK_BASE_NONE) != 0u) {
+    if (OUTPUT == OUTPUT_INK || (look_flags & LOOK_BASE_NONE) != 0u) {
         color = vec3f(0.0);
         alpha = 0.0;
     }
@@ -1592,7 +1594,11 @@ fn hatched_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: boo
     let point = hatch_point(in);
     let surface = surface_of(in);
     let shaded = shade(surface, front_facing);
-    return with_rim(surface, shaded, inked(shaded, point, in.draw));
+    let color = inked(shaded, point, in.draw);
+    if (OUTPUT != OUTPUT_PICTURE) {
+        return color;
+    }
+    return with_rim(surface, shaded, color);
 }
 
 @fragment
