@@ -32,14 +32,14 @@ pub(super) fn sheets(root: &Path, folder: &Path, genga: &Path) -> Result<()> {
     drawn.and(removed)
 }
 
-/// Black on white; widths are pixels of the picture itself.
+/// Black on white; widths are half pixels of the picture.
 fn style_of(hatch: &str, height: u32) -> String {
     format!(
         "version = 1\n[background]\ncolor = \"#ffffff\"\n[light]\nazimuth_deg = -60\n\
          elevation_deg = 35\nreplace_model_lights = true\n[paint]\nbase = \"#ffffff\"\n\
          [paint.hatch]\n{hatch}\n[lines]\nreference_height = {height}\n[[lines.sets]]\n\
-         name = \"outline\"\ntypes = [\"silhouette\", \"object\", \"border\"]\nwidth = 2.0\n\
-         [[lines.sets]]\nname = \"inner\"\ntypes = [\"crease\", \"material\"]\nwidth = 1.2\n"
+         name = \"outline\"\ntypes = [\"silhouette\", \"object\", \"border\"]\nwidth = 3.4\n\
+         [[lines.sets]]\nname = \"inner\"\ntypes = [\"crease\", \"material\"]\nwidth = 2.0\n"
     )
 }
 
@@ -49,7 +49,7 @@ fn draw(root: &Path, genga: &Path, sheet: &Sheet, style: &Path, folder: &Path) -
     let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);
     let file = folder.join(format!("hatching-{}.png", sheet.name));
     for (i, cell) in sheet.cells.iter().enumerate() {
-        let text = style_of(&cell.hatch, height);
+        let text = style_of(&cell.hatch, 2 * height);
         fs::write(style, text).map_err(Error::io("cannot write", style))?;
         let mut render = Command::new(genga);
         render.args(["render", "--quiet"]).arg(root.join("assets/models").join(cell.model));
@@ -62,7 +62,7 @@ fn draw(root: &Path, genga: &Path, sheet: &Sheet, style: &Path, folder: &Path) -
         image::imageops::replace(&mut whole, &picture, at(column, width), at(row, height));
     }
     let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
-    image::DynamicImage::from(whole).into_rgb8().save(&file).map_err(wrong)
+    image::DynamicImage::from(whole).into_luma8().save(&file).map_err(wrong)
 }
 
 fn camera(azimuth: f32, elevation: f32, zoom: f32) -> Vec<String> {
@@ -76,19 +76,19 @@ fn tones() -> Sheet {
     let patterns = [
         "pattern = \"strokes\"",
         "pattern = \"cross\"",
-        "pattern = \"stipple\"\nspacing = 4",
-        "pattern = \"pencil\"\nspacing = 4",
-        "pattern = \"dots\"\nangle_deg = 45\nlines_per_inch = 30\npage_height_in = 1",
+        "pattern = \"stipple\"\nspacing = 6",
+        "pattern = \"pencil\"\nspacing = 6",
+        "pattern = \"dots\"\nangle_deg = 45\nlines_per_inch = 30\npage_height_in = 1.2",
     ];
     let mut cells = Vec::new();
     for pattern in patterns {
-        for lum in [0.68, 0.58, 0.48, 0.38, 0.28] {
+        for lum in [0.7, 0.62, 0.54, 0.46, 0.38] {
             let hatch = format!("{pattern}\ntones = [{{ at = 0.0, lum = {lum} }}]");
-            let options = camera(30.0, 20.0, 1.9);
-            cells.push(Cell { model: "teapot-on-box.glb", hatch, options });
+            let options = camera(25.0, 6.0, 1.7);
+            cells.push(Cell { model: "head.glb", hatch, options });
         }
     }
-    Sheet { name: "tones", cell: [180, 150], columns: 5, cells }
+    Sheet { name: "tones", cell: [200, 170], columns: 5, cells }
 }
 
 /// After figures 3.11 and 3.12: the mappings `uv`, `screen` and `surface` while the body turns.
@@ -97,19 +97,19 @@ fn mappings() -> Sheet {
     for mapping in ["uv", "screen", "surface"] {
         for i in 0..5 {
             let hatch = format!(
-                "pattern = \"strokes\"\nmapping = \"{mapping}\"\nspacing = 7\nangle_deg = 25\n\
+                "pattern = \"strokes\"\nmapping = \"{mapping}\"\nspacing = 8\nangle_deg = 25\n\
                  tones = [{{ at = 0.1, lum = 0.3 }}, {{ at = 0.65, lum = 0.76 }}]"
             );
             let options = camera(10.0 + 8.0 * i as f32, 8.0, 1.2);
             cells.push(Cell { model: "head.glb", hatch, options });
         }
     }
-    Sheet { name: "mappings", cell: [220, 220], columns: 5, cells }
+    Sheet { name: "mappings", cell: [240, 240], columns: 5, cells }
 }
 
 /// After figure 3.14: strokes keep their width and distance from far to near.
 fn distances() -> Sheet {
-    let hatch = "pattern = \"strokes\"\nspacing = 6\n\
+    let hatch = "pattern = \"strokes\"\nspacing = 9\n\
                  tones = [{ at = 0.1, lum = 0.24 }, { at = 0.6, lum = 0.76 }]";
     let cell = |zoom| Cell {
         model: "head.glb",
@@ -128,5 +128,5 @@ fn materials() -> Sheet {
         options: camera(30.0, 20.0, 1.6),
     };
     let cells = ["skin", "cloth", "metal", "hair", "glass"].map(cell).into();
-    Sheet { name: "materials", cell: [240, 200], columns: 5, cells }
+    Sheet { name: "materials", cell: [260, 220], columns: 5, cells }
 }
