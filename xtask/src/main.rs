@@ -34,12 +34,8 @@ enum Task {
     Test,
     /// Draw the small pictures of assets/gallery again
     Gallery {
-        /// Only the sheets of highlights
-        #[arg(long)]
-        highlights: bool,
-        /// Only the sheets of hatching
-        #[arg(long)]
-        hatching: bool,
+        /// What is drawn; everything if nothing is named
+        parts: Vec<gallery::Part>,
     },
     /// List test pictures that differ from the expected ones
     Snapshots {
@@ -92,7 +88,7 @@ fn run(task: Task) -> Result<()> {
     match task {
         Task::Demo => gallery::demo(root),
         Task::Test => check::test(root),
-        Task::Gallery { highlights, hatching } => gallery::gallery(root, highlights, hatching),
+        Task::Gallery { parts } => gallery::gallery(root, &parts),
         Task::Snapshots { update } => snapshots::snapshots(root, update),
         Task::Verify => {
             let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];

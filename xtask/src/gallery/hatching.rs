@@ -24,10 +24,10 @@ struct Sheet {
 }
 
 /// Draws all sheets into the folder.
-pub(super) fn sheets(root: &Path, folder: &Path, genga: &Path) -> Result<()> {
+pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let style = folder.join(".sheet.style.toml");
     let all = [tones(), mappings(), distances(), materials()];
-    let drawn = all.iter().try_for_each(|sheet| draw(root, genga, sheet, &style, folder));
+    let drawn = all.iter().try_for_each(|sheet| draw_one(root, genga, sheet, &style, folder));
     let removed = fs::remove_file(&style).map_err(Error::io("cannot remove", &style));
     drawn.and(removed)
 }
@@ -43,7 +43,7 @@ fn style_of(hatch: &str, height: u32) -> String {
     )
 }
 
-fn draw(root: &Path, genga: &Path, sheet: &Sheet, style: &Path, folder: &Path) -> Result<()> {
+fn draw_one(root: &Path, genga: &Path, sheet: &Sheet, style: &Path, folder: &Path) -> Result<()> {
     let [width, height] = sheet.cell;
     let rows = sheet.cells.len().div_ceil(sheet.columns);
     let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);

@@ -1,62 +1,17 @@
 //! Sheets of highlights, as the figures of the paper on anime highlights show them: with keys and
 //! without, between keys, by the proxy's part in the normal, with all drawings, and on a body.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
-use crate::{Error, Result, process};
-
-/// One picture of a sheet: a scene file's text, and options of `genga render`.
-struct Cell {
-    scene: String,
-    options: Vec<String>,
-}
-
-/// Rows of equal cells.
-struct Sheet {
-    name: &'static str,
-    /// Width and height of a cell in pixels.
-    cell: [u32; 2],
-    columns: usize,
-    cells: Vec<Cell>,
-}
+use super::sheet::{self, Cell, Sheet, changed, read};
+use crate::Result;
 
 /// Draws all sheets into the folder.
-pub(super) fn sheets(root: &Path, folder: &Path) -> Result<()> {
-    let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
+pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let scenes = root.join("assets/scenes/highlights");
-    let read = |name: &str| {
-        let path = scenes.join(name);
-        fs::read_to_string(&path).map_err(Error::io("cannot read", &path))
-    };
-    let (head, hero) = (read("head.scene.toml")?, read("hero.scene.toml")?);
+    let [head, hero] = [read(&scenes, "head.scene.toml")?, read(&scenes, "hero.scene.toml")?];
     let all = [views(&head)?, between(&head)?, proxies(&head)?, drawings(&head)?, body(&hero)];
-    // Beside the scenes, since their paths begin there.
-    let part = scenes.join(".sheet.scene.toml");
-    let drawn = all.iter().try_for_each(|sheet| draw(&genga, sheet, &part, folder));
-    let removed = fs::remove_file(&part).map_err(Error::io("cannot remove", &part));
-    drawn.and(removed)
-}
-
-fn draw(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<()> {
-    let [width, height] = sheet.cell;
-    let rows = sheet.cells.len().div_ceil(sheet.columns);
-    let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);
-    let file: PathBuf = folder.join(format!("highlights-{}.png", sheet.name));
-    for (i, cell) in sheet.cells.iter().enumerate() {
-        fs::write(part, &cell.scene).map_err(Error::io("cannot write", part))?;
-        let mut render = Command::new(genga);
-        render.args(["render", "--quiet"]).arg(part).args(["--size", &format!("{width}x{height}")]);
-        process::run(render.args(&cell.options).arg("--output").arg(&file))?;
-        let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
-        let picture = image::open(&file).map_err(wrong)?.into_rgba8();
-        let (column, row) = (i % sheet.columns, i / sheet.columns);
-        let at = |index: usize, side: u32| i64::from(index as u32 * side);
-        image::imageops::replace(&mut whole, &picture, at(column, width), at(row, height));
-    }
-    let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
-    image::DynamicImage::from(whole).into_rgb8().save(&file).map_err(wrong)
+    sheet::draw(genga, &all, &scenes, folder)
 }
 
 /// From where the head is seen in a row.
@@ -75,7 +30,7 @@ fn views(head: &str) -> Result<Sheet> {
         |scene: &String, azimuth| Cell { scene: scene.clone(), options: camera(azimuth, 1.0) };
     let cells =
         scenes.iter().flat_map(|scene| AROUND.map(|azimuth| cell(scene, azimuth))).collect();
-    Ok(Sheet { name: "views", cell: [240, 240], columns: AROUND.len(), cells })
+    Ok(Sheet { name: "highlights-views", cell: [240, 240], columns: AROUND.len(), cells })
 }
 
 /// From the front to the side: keys that hold, that go evenly, and smoothly.
@@ -89,7 +44,7 @@ fn between(head: &str) -> Result<Sheet> {
             cells.push(Cell { scene: scene.clone(), options });
         }
     }
-    Ok(Sheet { name: "between", cell: [200, 200], columns: 5, cells })
+    Ok(Sheet { name: "highlights-between", cell: [200, 200], columns: 5, cells })
 }
 
 /// γ = 0, 0.9 and 1.
@@ -106,7 +61,7 @@ fn proxies(head: &str) -> Result<Sheet> {
             cells.push(Cell { scene, options: camera(-22.0, 1.15) });
         }
     }
-    Ok(Sheet { name: "proxy", cell: [320, 320], columns: 3, cells })
+    Ok(Sheet { name: "highlights-proxy", cell: [320, 320], columns: 3, cells })
 }
 
 /// All drawings that come with the library.
@@ -128,7 +83,7 @@ fn drawings(head: &str) -> Result<Sheet> {
         let scene = changed(&scene, "size_deg = [200, 84]", &size)?;
         cells.push(Cell { scene, options: camera(-10.0, 1.1) });
     }
-    Ok(Sheet { name: "drawings", cell: [240, 240], columns: 4, cells })
+    Ok(Sheet { name: "highlights-drawings", cell: [240, 240], columns: 4, cells })
 }
 
 /// A walking body from two sides.
@@ -139,16 +94,7 @@ fn body(hero: &str) -> Sheet {
         options.extend(["--time".to_owned(), time.to_string()]);
         Cell { scene: hero.to_owned(), options }
     };
-    Sheet { name: "body", cell: [300, 400], columns: 4, cells: moments.map(cell).into() }
-}
-
-/// A scene with other words at every place of some; it must have them.
-fn changed(scene: &str, from: &str, to: &str) -> Result<String> {
-    if scene.contains(from) {
-        Ok(scene.replace(from, to))
-    } else {
-        Err(Error::new(format!("the scene of the sheets has no '{from}' any more")))
-    }
+    Sheet { name: "highlights-body", cell: [300, 400], columns: 4, cells: moments.map(cell).into() }
 }
 
 /// A scene without its `[[highlight.key]]` tables.
@@ -171,11 +117,5 @@ mod tests {
     fn keys_are_left_out_with_their_lines() {
         let scene = "[[highlight]]\na = 1\n[[highlight.key]]\nb = 2\n\n[picture]\nc = 3\n";
         assert_eq!(without_keys(scene), "[[highlight]]\na = 1\n[picture]\nc = 3\n");
-    }
-
-    #[test]
-    fn a_change_must_find_its_words() {
-        assert_eq!(changed("a b a", "a", "c").ok().as_deref(), Some("c b c"));
-        assert!(changed("a b", "d", "c").is_err());
     }
 }

@@ -3,6 +3,7 @@
 mod hatching;
 mod highlights;
 mod lines;
+mod sheet;
 mod waves;
 
 use std::fmt::Write as _;
@@ -23,23 +24,45 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The small pictures of README and gallery, in `assets/gallery`, which are committed.
-pub(crate) fn gallery(root: &Path, only_highlights: bool, only_hatching: bool) -> Result<()> {
+/// What of the gallery is drawn anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Part {
+    /// Every preset on every model and scene
+    Presets,
+    /// The sheets of lines
+    Lines,
+    /// The sheets of highlights
+    Highlights,
+    /// The sheets and showpieces of energy waves
+    Waves,
+    /// The sheets of hatching
+    Hatching,
+}
+
+/// The small pictures of README and gallery, in `assets/gallery`, which are committed: the named
+/// parts of it, or all.
+pub(crate) fn gallery(root: &Path, parts: &[Part]) -> Result<()> {
     let folder = root.join("assets/gallery");
-    if only_hatching {
-        let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
-        return hatching::sheets(root, &folder, &genga);
+    let wanted = |part| parts.is_empty() || parts.contains(&part);
+    if wanted(Part::Presets) {
+        draw(root, &folder, "480x270")?;
     }
-    if only_highlights {
-        return highlights::sheets(root, &folder);
+    if wanted(Part::Lines) {
+        lines::draw(root, &folder)?;
     }
-    let pictures = draw(root, &folder, "480x270")?;
-    lines::draw(root, &folder)?;
     let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
-    waves::draw(root, &genga)?;
-    hatching::sheets(root, &folder, &genga)?;
-    println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
-    highlights::sheets(root, &folder)
+    adapter::ensure(&genga)?;
+    if wanted(Part::Highlights) {
+        highlights::draw(root, &genga, &folder)?;
+    }
+    if wanted(Part::Waves) {
+        waves::draw(root, &genga, &folder)?;
+    }
+    if wanted(Part::Hatching) {
+        hatching::draw(root, &genga, &folder)?;
+    }
+    println!("\nthe pictures are in {}", folder.display());
+    Ok(())
 }
 
 /// A drawn picture.

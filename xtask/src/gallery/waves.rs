@@ -3,14 +3,35 @@
 use std::path::Path;
 use std::process::Command;
 
+use super::sheet::{self, Cell, Sheet, changed, read};
 use crate::{Result, process};
 
-/// Draws them with a built genga into `assets/gallery`.
-pub(super) fn draw(root: &Path, genga: &Path) -> Result<()> {
-    let mut scenes = crate::files_with_extension(&root.join("assets/scenes/waves"), "toml")?;
-    scenes.retain(|file| super::name_of(file).ends_with(".scene.toml"));
+/// Draws them into the folder.
+pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
+    let scenes = root.join("assets/scenes/waves");
+    let files = super::scenes(&scenes)?;
     let mut render = Command::new(genga);
-    render.current_dir(root).args(["render", "--output", "assets/gallery/{model}.png"]);
-    render.args(scenes.iter().map(|path| path.strip_prefix(root).unwrap_or(path)));
-    process::run(&mut render)
+    render.args(["render", "--output"]).arg(folder.join("{model}.png"));
+    process::run(render.args(&files))?;
+    sheet::draw(genga, &[cameras(&read(&scenes, "waves-cameras.scene.toml")?)?], &scenes, folder)
+}
+
+/// One helix from the side, from before and behind its head, along its axis, and from inside (Abe
+/// 2024, figures 4.3).
+fn cameras(scene: &str) -> Result<Sheet> {
+    let places = [
+        ([1.0, 0.0, 4.2], [1.0, 0.0, 0.0]),
+        ([4.4, 1.2, 2.2], [1.0, 0.0, 0.0]),
+        ([-2.2, 0.8, 1.4], [1.0, 0.0, 0.0]),
+        ([4.6, 0.001, 0.0], [0.0, 0.0, 0.0]),
+        ([-1.2, 0.0, 0.001], [2.0, 0.0, 0.0]),
+        ([0.3, 0.0, 0.0], [2.0, 0.05, 0.0]),
+    ];
+    let cell = |(eye, at): ([f64; 3], [f64; 3])| {
+        let scene = changed(scene, "position = [1, 0, 4.2]", &format!("position = {eye:?}"))?;
+        let scene = changed(&scene, "target = [1, 0, 0]", &format!("target = {at:?}"))?;
+        Ok(Cell { scene, options: Vec::new() })
+    };
+    let cells: Result<_> = places.into_iter().map(cell).collect();
+    Ok(Sheet { name: "waves-cameras", cell: [280, 210], columns: 3, cells: cells? })
 }

@@ -140,7 +140,6 @@ pub(crate) fn frame_values(
     projected: &Projected,
     [tile, viewport]: [Tile; 2],
     output: Output,
-    light_count: u32,
 ) -> Frame {
     let style = &prepared.style;
     let blend = style.paint.blend_space;
@@ -178,7 +177,6 @@ pub(crate) fn frame_values(
         line_scale,
         paint_scale: view.supersample as f32,
         gbuffer_scale: scale.factor(),
-        light_count,
         min_stroke: style.lines.strokes.min_length * line_scale,
         max_gap: style.lines.strokes.gap * line_scale,
         flags: flag(blend == BlendSpace::Linear, gpu::FRAME_LINEAR_BLEND)
@@ -205,6 +203,7 @@ pub(crate) fn frame_values(
         },
         reserved_0: 0,
         reserved_1: 0,
+        reserved_2: 0,
         line_sets,
         detect: Detect {
             depth: detect.depth,
@@ -221,9 +220,9 @@ pub(crate) fn frame_values(
                 | identity(detect.uv_seams, gpu::LINE_UV_SEAM)
                 | identity(detect.crease_deg > 0.0, gpu::LINE_CREASE),
             max_width_factor: prepared.max_width_factor,
+            max_radius: line_sets.iter().map(|set| set.radius).fold(0.0, f32::max),
             reserved_0: 0.0,
             reserved_1: 0.0,
-            reserved_2: 0.0,
         },
     }
 }

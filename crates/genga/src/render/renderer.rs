@@ -26,7 +26,11 @@ use super::{
         waves::WavePass,
     },
     picture::MAX_PICTURE_SIDE,
-    prepare::{Prepared, lights::lights_in_view, waves},
+    prepare::{
+        Prepared,
+        lights::{MAX_LIGHTS, lights_in_view},
+        waves,
+    },
     targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
@@ -319,9 +323,11 @@ impl Renderer {
         let mut lights: Vec<Light> =
             lights_in_view(&prepared.lights, &prepared.style.light, world_from_camera);
         let tiles = [tile, viewport(&self.device, view, tile)];
-        let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
+        let frame = frame_values(prepared, view, projected, tiles, output);
         prepared.highlights.write(&self.queue, prepared, view, &lights);
         let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
+        // Loops over them end at the first one without weight.
+        lights.resize(MAX_LIGHTS, bytemuck::Zeroable::zeroed());
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));
         let glow = prepared.waves.glow_values(output);

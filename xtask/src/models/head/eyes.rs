@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 
 use super::form::Form;
-use crate::models::sculpt::{Part, smooth_step};
+use crate::models::sculpt::{Part, plate, smooth_step};
 
 const CENTER: DVec2 = DVec2::new(0.0405, 0.2205);
 const HALF_WIDTH: f64 = 0.0255;
@@ -44,6 +44,8 @@ pub(super) fn opening(p: DVec3) -> f64 {
 
 const IRIS: DVec2 = DVec2::new(CENTER.x - 0.0012, CENTER.y - 0.0020);
 const IRIS_RADII: DVec2 = DVec2::new(0.0165, 0.0225);
+/// The coloured part of the iris within its dark edge.
+const INNER: f64 = 0.95;
 
 const MOUTH_Y: f64 = 0.1660;
 const MOUTH_HALF: f64 = 0.0165;
@@ -94,7 +96,8 @@ fn lid_motion(p: DVec2, how: f64) -> f64 {
     } else {
         closed - left * (upper - p.y) / (upper - lower) - p.y
     };
-    moved * fade * how
+    // In the corners, where the lids' edges run upright, they keep their order.
+    moved * fade * how * (1.0 - 0.08 * smooth_step(0.85, 1.0, t.abs()))
 }
 
 /// The corners of the mouth rise, the mouth opens, the lower lids lift.
@@ -121,11 +124,17 @@ pub(super) fn smile(p: DVec2) -> DVec2 {
 /// A point in the face's plane, and its distance off the face in metres.
 type Lifted = (DVec2, f64);
 
-/// A patch on the face for one eye: rows of points in the half where x ≥ 0.
-pub(super) struct Patch(Vec<Vec<Lifted>>);
+/// How far a patch goes into the face, in metres.
+const DEPTH: DVec3 = DVec3::new(0.0, 0.0, -0.0012);
+
+/// A patch on the face for one eye: rows of points in the half where x ≥ 0, rings if it is round.
+pub(super) struct Patch {
+    rows: Vec<Vec<Lifted>>,
+    round: bool,
+}
 
 impl Patch {
-    /// The patch on the face, moved by `warp`, on the left or mirrored to the right.
+    /// The patch on the face, a closed plate sunk into it, moved by `warp`, on the left or mirrored to the right.
     pub(super) fn placed(&self, form: &Form, warp: Warp, right: bool) -> Part {
         let place = |&(p, lift): &Lifted| {
             let q = warp(p);
@@ -134,7 +143,7 @@ impl Patch {
             if right { DVec3::new(-p.x, p.y, p.z) } else { p }
         };
         let rows: Vec<Vec<DVec3>> = self
-            .0
+            .rows
             .iter()
             .map(|row| {
                 let mut row: Vec<DVec3> = row.iter().map(place).collect();
@@ -144,16 +153,14 @@ impl Patch {
                 row
             })
             .collect();
-        let mut part = Part::default();
-        part.grid(&rows, false);
-        part
+        plate(&rows, self.round, DEPTH)
     }
 }
 
-/// A round patch: an ellipse, cut off by the lids and the iris's edge. Rows are rings from the
+/// A round patch: an ellipse, cut off by the lids and by an ellipse round the iris's middle. Rows are rings from the
 /// middle outwards.
-fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
-    const RINGS: usize = 6;
+fn disc(center: DVec2, radii: DVec2, within: DVec2, lift: f64, dome: f64) -> Patch {
+    const RINGS: usize = 3;
     const STEPS: usize = 40;
     let reach = |angle: f64| {
         let way = DVec2::new(libm::cos(angle), libm::sin(angle));
@@ -161,8 +168,7 @@ fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
         // Until a little before the lid, and within the iris.
         let inside = |r: f64| {
             let p = center + way * r;
-            opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002
-                && ((p - IRIS) / IRIS_RADII).length() < 0.999
+            opening(DVec3::new(p.x, p.y, 0.1)) < -0.0002 && ((p - IRIS) / within).length() < 0.999
         };
         let (mut near, mut far) = (0.0, full);
         if inside(full) {
@@ -185,13 +191,13 @@ fn disc(center: DVec2, radii: DVec2, lift: f64, dome: f64) -> Patch {
                 .collect()
         })
         .collect();
-    Patch(rows)
+    Patch { rows, round: true }
 }
 
 /// A stroke along a line: its middle and half its width at each step from 0 to 1; it stands off
 /// the face most in the middle.
 fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patch {
-    const ACROSS: usize = 4;
+    const ACROSS: usize = 2;
     let rows = (0..=ACROSS)
         .map(|k| {
             // From the lower edge to the upper one: along × across must face the viewer.
@@ -199,12 +205,12 @@ fn stroke(steps: usize, lift: f64, line: &dyn Fn(f64) -> (DVec2, DVec2)) -> Patc
             (0..=steps)
                 .map(|i| {
                     let (middle, half) = line(i as f64 / steps as f64);
-                    (middle - half * side, -0.0003 + lift * (1.0 - side * side))
+                    (middle - half * side, 0.0002 + lift * (1.0 - side * side))
                 })
                 .collect()
         })
         .collect();
-    Patch(rows)
+    Patch { rows, round: false }
 }
 
 /// The patches of one eye, with their materials.
@@ -223,35 +229,56 @@ pub(super) fn patches() -> Vec<(&'static str, Patch)> {
     let lower_lash = |s: f64| {
         let t = 0.15 + 0.80 * s;
         let (_, y) = lids(t);
-        let thick = 0.0009 * smooth_step(0.0, 0.5, s) * smooth_step(1.0, 0.8, s);
+        let thick = 0.00015 + 0.0008 * smooth_step(0.0, 0.5, s) * smooth_step(1.0, 0.8, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
     let fold = |s: f64| {
         let t = -0.62 + 1.35 * s;
         let (y, _) = lids(t * 0.9);
-        let thick = 0.0006 * smooth_step(0.0, 0.3, s) * smooth_step(1.0, 0.7, s);
+        let thick = 0.00015 + 0.0005 * smooth_step(0.0, 0.3, s) * smooth_step(1.0, 0.7, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y + 0.0072), DVec2::new(0.0, thick))
     };
     let brow = |s: f64| {
-        let t = -0.85 + 1.95 * s;
+        let t = -0.85 + 1.70 * s;
         let y = CENTER.y + 0.0345 + 0.0040 * (1.0 - (t - 0.15) * (t - 0.15)) - 0.0006 * t;
-        let thick = 0.0021 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
+        let thick = 0.00015 + 0.0020 * smooth_step(-0.05, 0.25, s) * smooth_step(1.0, 0.3, s);
         (DVec2::new(CENTER.x + HALF_WIDTH * t, y), DVec2::new(0.0, thick))
     };
+    let inner = IRIS_RADII * INNER;
     vec![
-        ("iris", disc(IRIS, IRIS_RADII, -0.0009, 0.0004)),
+        // Dark round its edge.
+        ("pupil", disc(IRIS, IRIS_RADII, IRIS_RADII, -0.0007, 0.0003)),
+        ("iris", disc(IRIS, inner, inner, -0.0005, 0.0004)),
         (
             "iris_shade",
-            disc(IRIS + DVec2::Y * 0.0120, IRIS_RADII * DVec2::new(1.2, 0.62), -0.0004, 0.0003),
+            disc(
+                IRIS + DVec2::Y * 0.0120,
+                IRIS_RADII * DVec2::new(1.2, 0.62),
+                inner,
+                -0.0001,
+                0.0003,
+            ),
         ),
-        ("pupil", disc(IRIS + DVec2::Y * 0.0010, IRIS_RADII * 0.47, 0.0000, 0.0002)),
+        ("pupil", disc(IRIS + DVec2::Y * 0.0010, IRIS_RADII * 0.47, inner, 0.0002, 0.0002)),
         (
             "shine",
-            disc(IRIS + DVec2::new(0.0058, 0.0105), DVec2::new(0.0044, 0.0054), 0.0004, 0.0003),
+            disc(
+                IRIS + DVec2::new(0.0058, 0.0105),
+                DVec2::new(0.0044, 0.0054),
+                inner,
+                0.0005,
+                0.0003,
+            ),
         ),
         (
             "shine",
-            disc(IRIS - DVec2::new(0.0062, 0.0110), DVec2::new(0.0026, 0.0030), 0.0004, 0.0002),
+            disc(
+                IRIS - DVec2::new(0.0062, 0.0110),
+                DVec2::new(0.0026, 0.0030),
+                inner,
+                0.0005,
+                0.0002,
+            ),
         ),
         ("lash", stroke(36, 0.0022, &upper_lash)),
         ("lash", stroke(20, 0.0008, &lower_lash)),

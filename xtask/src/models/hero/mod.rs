@@ -176,8 +176,8 @@ struct Cast {
     locks: Held,
     cape: Held,
     clasps: Held,
-    /// Metal, ring, boss, relative to the elbow.
-    shield: [Part; 3],
+    /// Metal, ring, boss, strap, relative to the elbow.
+    shield: [Part; 4],
 }
 
 fn cast(bones: usize) -> Cast {
@@ -236,9 +236,8 @@ pub(super) fn hero() -> Model {
         let mesh = model.surfaces(name, surfaces, &[]);
         model.skinned(name, mesh, skin);
     }
-    let [metal, ring, boss] = &cast.shield;
-    let shield =
-        [(surface(metal), of("metal")), (surface(ring), of("suit")), (surface(boss), of("belt"))];
+    let shield = cast.shield.iter().zip(["metal", "suit", "belt", "mask"]);
+    let shield: Vec<_> = shield.map(|(part, name)| (surface(part), of(name))).collect();
     let mesh = model.surfaces("shield", &shield, &[]);
     model.attach("shield", joints[skeleton::LOWER_ARM], mesh);
     clips::add(&mut model, &bones, &joints);

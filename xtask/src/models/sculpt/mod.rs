@@ -18,5 +18,5 @@ pub(super) use field::{Field, Solid, gradient, smooth_step};
 pub(super) use lock::lock;
 pub(super) use polygonise::polygonise;
 pub(super) use remesh::remesh;
-pub(super) use sweep::{Part, lathe, sheet};
+pub(super) use sweep::{Part, lathe, plate, sheet};
 pub(super) use unwrap::Unwrap;

@@ -96,28 +96,37 @@ pub(in crate::models) fn sheet(rows: &[Vec<DVec3>], thickness: f64) -> Part {
     let mut front = Part::default();
     front.grid(rows, false);
     let columns = rows[0].len();
-    let back_rows: Vec<Vec<DVec3>> = rows
-        .iter()
-        .enumerate()
-        .map(|(r, row)| {
-            let normal = |c: usize| front.normals[r * columns + c];
-            // Columns run the other way, so that the back faces backwards.
-            (0..columns).rev().map(|c| row[c] - normal(c) * thickness).collect()
-        })
-        .collect();
-    let mut part = front.clone();
-    part.grid(&back_rows, false);
-    let back = |r: usize, c: usize| back_rows[r][columns - 1 - c];
-    let last = rows.len() - 1;
+    thickened(rows, false, &|r, c| rows[r][c] - front.normals[r * columns + c] * thickness)
+}
+
+/// A closed plate: the rows of its front, moved by `depth` for its back. The rows of a `round` one
+/// are rings, from a point in the middle outwards.
+pub(in crate::models) fn plate(rows: &[Vec<DVec3>], round: bool, depth: DVec3) -> Part {
+    thickened(rows, round, &|r, c| rows[r][c] + depth)
+}
+
+/// Front, back and the hem between them.
+fn thickened(rows: &[Vec<DVec3>], round: bool, behind: &dyn Fn(usize, usize) -> DVec3) -> Part {
+    let (last, columns) = (rows.len() - 1, rows[0].len());
+    // Columns run the other way, so that the back faces backwards.
+    let back_row = |r: usize| (0..columns).rev().map(|c| behind(r, c)).collect();
+    // Nobody sees the back of a round one: its middle and its rim do.
+    let back: Vec<Vec<DVec3>> =
+        (0..=last).step_by(if round { last } else { 1 }).map(back_row).collect();
+    let mut part = Part::default();
+    part.grid(rows, round);
+    part.grid(&back, round);
     let mut hem = |ring: Vec<(usize, usize)>| {
         let rows: Vec<Vec<DVec3>> =
-            ring.iter().map(|&(r, c)| vec![back(r, c), rows[r][c]]).collect();
+            ring.iter().map(|&(r, c)| vec![behind(r, c), rows[r][c]]).collect();
         part.grid(&rows, false);
     };
     hem((0..columns).map(|c| (last, c)).collect());
-    hem((0..columns).rev().map(|c| (0, c)).collect());
-    hem((0..=last).map(|r| (r, 0)).collect());
-    hem((0..=last).rev().map(|r| (r, columns - 1)).collect());
+    if !round {
+        hem((0..columns).rev().map(|c| (0, c)).collect());
+        hem((0..=last).map(|r| (r, 0)).collect());
+        hem((0..=last).rev().map(|r| (r, columns - 1)).collect());
+    }
     part
 }
 

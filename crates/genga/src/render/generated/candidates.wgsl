@@ -94,9 +94,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Draw {
@@ -152,7 +152,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -160,6 +159,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -396,11 +396,7 @@ fn octahedral_unpack(bits: u32) -> vec3f {
 }
 
 fn part_in_tile(a: vec2f, along: vec2f) -> vec2f {
-    var radius = 0.0;
-    for (var i = 0u; i < frame.line_set_count; i++) {
-        radius = max(radius, frame.line_sets[i].radius);
-    }
-    let margin = vec2f(radius * frame.detect.max_width_factor + 2.0);
+    let margin = vec2f(frame.detect.max_radius * frame.detect.max_width_factor + 2.0);
     let low = frame.tile_origin - margin - a;
     let high = frame.tile_origin + frame.tile_size + margin - a;
     let flat = select(along, vec2f(1e-6), abs(along) < vec2f(1e-6));

@@ -93,7 +93,8 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     var p = vec3f(vertex.x, vertex.y, vertex.z);
     var n = octahedral_unpack(vertex.normal);
     var smooth_n = octahedral_unpack(vertex.smooth_normal);
-    for (var target_index = 0u; target_index < deform.target_count; target_index++) {
+    let target_count = min(deform.target_count, arrayLength(&morph_weights));
+    for (var target_index = 0u; target_index < target_count; target_index++) {
         let weight = morph_weights[deform.weight_first + target_index];
         if (weight != 0.0) {
             let first = deform.morph_first + 6u * (target_index * deform.vertex_count + index);

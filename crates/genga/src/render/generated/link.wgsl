@@ -70,9 +70,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Frame {
@@ -93,7 +93,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -101,6 +100,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }

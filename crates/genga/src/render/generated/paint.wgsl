@@ -144,6 +144,8 @@ const LOOK_UNSHADOWED: u32 = 16u;
 
 const MAX_CLEARANCE: f32 = 200.0;
 
+const MAX_LIGHTS: u32 = 16u;
+
 const MAX_SLOPE: f32 = 12.0;
 
 const MAX_STEPS: f32 = 6.0;
@@ -190,9 +192,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Draw {
@@ -244,7 +246,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -252,6 +253,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -689,7 +691,7 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     let kind = looks[look].hatch.direction;
     if (kind == HATCH_BY_LIGHT) {
         var to_light = vec3f(0.0);
-        for (var i = 0u; i < frame.light_count; i++) {
+        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
             let offset = lights[i].position.xyz - point.p_in_world;
             to_light += lights[i].factors.x * select(unit(offset), lights[i].direction.xyz, lights[i].kind == 0u);
         }
@@ -1344,14 +1346,14 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var terms: array<vec2f, 16>;
     if (SHADOWS) {
         let receiver = receiver_at(in.p_in_world, normal);
-        for (var i = 0u; i < frame.light_count; i++) {
+        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
             let light = light_term(lights[i], in.p_in_world, normal);
             sum += lights[i].factors.x * light.term;
             terms[i] = vec2f(light.term, light_reach(i, receiver, light.to_light));
         }
     }
     else {
-        for (var i = 0u; i < frame.light_count; i++) {
+        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
             sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
         }
     }
@@ -1383,7 +1385,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
-            for (var i = 0u; i < frame.light_count; i++) {
+            for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
                 let weight = lights[i].factors.x;
                 let term = terms[i].x;
                 let reached = terms[i].y;

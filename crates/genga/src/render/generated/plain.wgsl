@@ -35,6 +35,8 @@ const LIGHT_SKY: u32 = 3u;
 
 const LIGHT_SPOT: u32 = 2u;
 
+const MAX_LIGHTS: u32 = 16u;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
@@ -47,9 +49,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Draw {
@@ -91,7 +93,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -99,6 +100,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -366,7 +368,7 @@ fn plain_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @lo
     }
     let normal = facing_normal(in, front_facing);
     var sum = 0.0;
-    for (var i = 0u; i < frame.light_count; i++) {
+    for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
         sum += light_share(lights[i], in.p_in_world, normal);
     }
     let lit = linear_from_display(material.base) * max(sum, 0.0);

@@ -40,9 +40,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Draw {
@@ -84,7 +84,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -92,6 +91,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -205,7 +205,7 @@ fn reference_fragment(in: Quad) -> @location(0) vec4f {
     }
     let line_sets = draws[range.draw].object_id >> ID_SETS_SHIFT;
     var coverage = vec4f(0.0);
-    for (var i = 0u; i < frame.line_set_count; i++) {
+    for (var i = 0u; i < 4u; i++) {
         if ((frame.line_sets[i].types & types) != 0u && ((line_sets >> i) & 1u) != 0u) {
             coverage[i] = line_coverage(abs(in.across), frame.line_sets[i].radius * in.width);
         }
@@ -247,7 +247,7 @@ fn reference_vertex(@builtin(vertex_index) index: u32) -> Quad {
     let at_b = corner == 1u || corner == 3u || corner == 4u;
     let up = corner == 2u || corner == 3u || corner == 5u;
     var radius = 0.0;
-    for (var i = 0u; i < frame.line_set_count; i++) {
+    for (var i = 0u; i < 4u; i++) {
         radius = max(radius, frame.line_sets[i].radius);
     }
     let width = select(unpack2x16float(v0.line).x, unpack2x16float(v1.line).x, at_b);

@@ -88,9 +88,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Frame {
@@ -111,7 +111,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -119,6 +118,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -378,7 +378,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         width = max(width, textureLoad(normals, texel, 0).a);
     }
     var sets = 0u;
-    for (var i = 0u; i < frame.line_set_count; i++) {
+    for (var i = 0u; i < 4u; i++) {
         let is_visible_set = (frame.line_sets[i].flags & SET_HIDDEN) == 0u;
         if (is_visible_set && (frame.line_sets[i].types & types) != 0u) {
             sets |= 1u << i;

@@ -75,9 +75,9 @@ pub(crate) struct Detect {
     pub(crate) crease_cos: f32,
     pub(crate) sources: u32,
     pub(crate) max_width_factor: f32,
+    pub(crate) max_radius: f32,
     pub(crate) reserved_0: f32,
     pub(crate) reserved_1: f32,
-    pub(crate) reserved_2: f32,
 }
 const _: () = assert!(
     std::mem::size_of::< Detect > () == 32, "size of Detect does not match WGSL"
@@ -103,16 +103,16 @@ const _: () = assert!(
     "offset of Detect.max_width_factor does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Detect, reserved_0) == 20,
+    std::mem::offset_of!(Detect, max_radius) == 20,
+    "offset of Detect.max_radius does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Detect, reserved_0) == 24,
     "offset of Detect.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Detect, reserved_1) == 24,
+    std::mem::offset_of!(Detect, reserved_1) == 28,
     "offset of Detect.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Detect, reserved_2) == 28,
-    "offset of Detect.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -262,7 +262,6 @@ pub(crate) struct Frame {
     pub(crate) line_scale: f32,
     pub(crate) paint_scale: f32,
     pub(crate) gbuffer_scale: f32,
-    pub(crate) light_count: u32,
     pub(crate) min_stroke: f32,
     pub(crate) max_gap: f32,
     pub(crate) flags: u32,
@@ -270,6 +269,7 @@ pub(crate) struct Frame {
     pub(crate) line_method: u32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
     pub(crate) line_sets: [LineSet; 4],
     pub(crate) detect: Detect,
 }
@@ -344,36 +344,36 @@ const _: () = assert!(
     "offset of Frame.gbuffer_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, light_count) == 224,
-    "offset of Frame.light_count does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Frame, min_stroke) == 228,
+    std::mem::offset_of!(Frame, min_stroke) == 224,
     "offset of Frame.min_stroke does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, max_gap) == 232,
+    std::mem::offset_of!(Frame, max_gap) == 228,
     "offset of Frame.max_gap does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, flags) == 236,
+    std::mem::offset_of!(Frame, flags) == 232,
     "offset of Frame.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_set_count) == 240,
+    std::mem::offset_of!(Frame, line_set_count) == 236,
     "offset of Frame.line_set_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, line_method) == 244,
+    std::mem::offset_of!(Frame, line_method) == 240,
     "offset of Frame.line_method does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_0) == 248,
+    std::mem::offset_of!(Frame, reserved_0) == 244,
     "offset of Frame.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_1) == 252,
+    std::mem::offset_of!(Frame, reserved_1) == 248,
     "offset of Frame.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, reserved_2) == 252,
+    "offset of Frame.reserved_2 does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, line_sets) == 256,
@@ -1014,6 +1014,8 @@ const _: () = assert!(
 );
 pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
 pub(crate) const MASK_SILHOUETTE_SHIFT: u32 = 8u32;
+pub(crate) const MAX_LIGHTS: u32 = 16u32;
+pub(crate) const MAX_WAVES: u32 = 240u32;
 pub(crate) const METHOD_CONTOUR: u32 = 1u32;
 pub(crate) const METHOD_HULL: u32 = 3u32;
 pub(crate) const METHOD_IMAGE: u32 = 5u32;
@@ -1387,6 +1389,7 @@ const _: () = assert!(
 pub(crate) const WAVE_ENDS: u32 = 1u32;
 pub(crate) const WAVE_EVEN: u32 = 4u32;
 pub(crate) const WAVE_OCCLUDED: u32 = 2u32;
+pub(crate) const WAVE_USED: u32 = 8u32;
 pub(crate) const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1648,8 +1651,8 @@ pub(crate) struct WaveView {
     pub(crate) squares_across: u32,
     pub(crate) square_count: u32,
     pub(crate) capacity: u32,
-    pub(crate) wave_count: u32,
-    pub(crate) layer_count: u32,
+    pub(crate) reserved_3: u32,
+    pub(crate) reserved_4: u32,
     pub(crate) gbuffer_scale: u32,
     pub(crate) flags: u32,
     pub(crate) reference_points: u32,
@@ -1713,12 +1716,12 @@ const _: () = assert!(
     "offset of WaveView.capacity does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, wave_count) == 112,
-    "offset of WaveView.wave_count does not match WGSL"
+    std::mem::offset_of!(WaveView, reserved_3) == 112,
+    "offset of WaveView.reserved_3 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, layer_count) == 116,
-    "offset of WaveView.layer_count does not match WGSL"
+    std::mem::offset_of!(WaveView, reserved_4) == 116,
+    "offset of WaveView.reserved_4 does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(WaveView, gbuffer_scale) == 120,

@@ -69,6 +69,8 @@ const LINE_OBJECT: u32 = 4u;
 
 const LINE_SILHOUETTE: u32 = 1u;
 
+const MAX_LIGHTS: u32 = 16u;
+
 const PIECE_COVERED_A: u32 = 256u;
 
 const PIECE_COVERED_B: u32 = 512u;
@@ -110,9 +112,9 @@ struct Detect {
     crease_cos: f32,
     sources: u32,
     max_width_factor: f32,
+    max_radius: f32,
     reserved_0: f32,
-    reserved_1: f32,
-    reserved_2: f32
+    reserved_1: f32
 }
 
 struct Draw {
@@ -161,7 +163,6 @@ struct Frame {
     line_scale: f32,
     paint_scale: f32,
     gbuffer_scale: f32,
-    light_count: u32,
     min_stroke: f32,
     max_gap: f32,
     flags: u32,
@@ -169,6 +170,7 @@ struct Frame {
     line_method: u32,
     reserved_0: u32,
     reserved_1: u32,
+    reserved_2: u32,
     line_sets: array<LineSet, 4>,
     detect: Detect
 }
@@ -455,7 +457,7 @@ fn line_ends(frame: Frame, p_a: vec3f, p_b: vec3f) -> LineEnds {
 
 fn lit(p: vec3f, normal: vec3f) -> f32 {
     var sum = 0.0;
-    for (var i = 0u; i < frame.light_count; i++) {
+    for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
         sum += light_share(lights[i], p, normal);
     }
     return saturate(0.5 + 0.5 * clamp(sum, -1.0, 1.0));
@@ -513,7 +515,7 @@ fn look_up(t: f32) -> Found {
     }
     let own_sets = line.owner >> ID_SETS_SHIFT;
     var sets = 0u;
-    for (var i = 0u; i < frame.line_set_count; i++) {
+    for (var i = 0u; i < 4u; i++) {
         let is_hidden_set = (frame.line_sets[i].flags & SET_HIDDEN) != 0u;
         let is_covered = covered > 0.0 && ((through >> i) & 1u) == 0u;
         if ((frame.line_sets[i].types & types) != 0u && is_hidden_set == is_covered) {

@@ -31,6 +31,8 @@ const MANY_CUTS: f32 = 5.0;
 
 const MAX_CUTS: f32 = 32.0;
 
+const MAX_WAVES: u32 = 240u;
+
 const NODE_FITS: u32 = 1u;
 
 const NODE_MISSED: u32 = 0u;
@@ -40,6 +42,8 @@ const NODE_TOO_COARSE: u32 = 2u;
 const WAVE_ENDS: u32 = 1u;
 
 const WAVE_OCCLUDED: u32 = 2u;
+
+const WAVE_USED: u32 = 8u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
@@ -143,8 +147,8 @@ struct WaveView {
     squares_across: u32,
     square_count: u32,
     capacity: u32,
-    wave_count: u32,
-    layer_count: u32,
+    reserved_3: u32,
+    reserved_4: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
@@ -194,7 +198,7 @@ fn collect_square(square: u32, quarter: u32, local_id: vec2u) {
         add_energy(wave, energy);
         at += 1u;
     }
-    finish_layers(pixel, view.layer_count);
+    textureStore(glow, pixel, layer, layer_glow);
     textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 
@@ -611,7 +615,7 @@ fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
     layer = 0u;
     layer_glow = vec4f(0.0);
     total = 0.0;
-    for (var wave = 0u; wave < view.wave_count; wave++) {
+    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
         let of_square = wave_ray(wave, middle.ray, 1e30, middle.spread);
         if (of_square.low >= of_square.high) {
             continue;
@@ -641,7 +645,7 @@ fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
         }
         add_energy(wave, energy);
     }
-    finish_layers(pixel, view.layer_count);
+    textureStore(glow, pixel, layer, layer_glow);
     textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 

@@ -30,9 +30,13 @@ const CURVE_POLYLINE: u32 = 5u;
 
 const CURVE_TRIG: u32 = 2u;
 
+const MAX_WAVES: u32 = 240u;
+
 const WAVE_ENDS: u32 = 1u;
 
 const WAVE_OCCLUDED: u32 = 2u;
+
+const WAVE_USED: u32 = 8u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
@@ -134,8 +138,8 @@ struct WaveView {
     squares_across: u32,
     square_count: u32,
     capacity: u32,
-    wave_count: u32,
-    layer_count: u32,
+    reserved_3: u32,
+    reserved_4: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
@@ -599,7 +603,7 @@ fn collect_reference(@builtin(global_invocation_id) id: vec3u) {
     var layer = 0u;
     var layer_glow = vec4f(0.0);
     var total = 0.0;
-    for (var wave = 0u; wave < view.wave_count; wave++) {
+    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
         while ((layer < waves[wave].layer)) {
             textureStore(glow, pixel, layer, layer_glow);
             layer_glow = vec4f(0.0);
@@ -611,11 +615,7 @@ fn collect_reference(@builtin(global_invocation_id) id: vec3u) {
         layer_glow += energy_color(wave, energy);
         total += energy;
     }
-    while ((layer < view.layer_count)) {
-        textureStore(glow, pixel, layer, layer_glow);
-        layer_glow = vec4f(0.0);
-        layer += 1u;
-    }
+    textureStore(glow, pixel, layer, layer_glow);
     textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 

@@ -23,6 +23,8 @@ var depth: texture_2d<f32>;
 
 const MANY_CUTS: f32 = 5.0;
 
+const MAX_WAVES: u32 = 240u;
+
 const NODE_FITS: u32 = 1u;
 
 const NODE_MISSED: u32 = 0u;
@@ -30,6 +32,8 @@ const NODE_MISSED: u32 = 0u;
 const NODE_TOO_COARSE: u32 = 2u;
 
 const WAVE_ENDS: u32 = 1u;
+
+const WAVE_USED: u32 = 8u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
@@ -141,8 +145,8 @@ struct WaveView {
     squares_across: u32,
     square_count: u32,
     capacity: u32,
-    wave_count: u32,
-    layer_count: u32,
+    reserved_3: u32,
+    reserved_4: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
@@ -365,7 +369,7 @@ fn list_squares(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroup
     let first = square * (view.capacity + 1u);
     let last = first + view.capacity;
     var end = first + 1u;
-    for (var wave = 0u; wave < view.wave_count; wave++) {
+    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
         let local = wave_ray(wave, middle.ray, 1e30, middle.spread);
         if (local.low >= local.high) {
             continue;

@@ -154,9 +154,7 @@ impl WavePass {
                 ],
             )
         };
-        if is_exact {
-            clear(encoder, targets, waves);
-        }
+        clear(encoder, targets, waves);
         let [used, full] = [&waves.used_squares, &waves.full_squares];
         let groups = [written(used), written(full)];
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -190,7 +190,12 @@ impl WaveData {
                 queue.write_buffer(buffer, 0, bytes);
             }
         };
-        queue.write_buffer(&self.waves, 0, bytemuck::cast_slice(&packer.waves));
+        // Loops over them end at the first one that is not used.
+        let mut all = packer.waves.clone();
+        if all.len() < MAX_WAVES {
+            all.push(bytemuck::Zeroable::zeroed());
+        }
+        queue.write_buffer(&self.waves, 0, bytemuck::cast_slice(&all));
         fill(&mut self.data, "wave data", bytemuck::cast_slice(&packer.data));
         let node_bytes = u64::from(packer.nodes.max(1)) * size_of::<WaveNode>() as u64;
         if self.nodes.size() < node_bytes {
@@ -283,7 +288,8 @@ impl Packer {
             core: wave.core,
             radius: wave.radius.unwrap_or(0.0),
             attenuation: wave.attenuation,
-            flags: flag(has_ends, gpu::WAVE_ENDS)
+            flags: gpu::WAVE_USED
+                | flag(has_ends, gpu::WAVE_ENDS)
                 | flag(wave.occluded, gpu::WAVE_OCCLUDED)
                 | flag(is_even(&curve), gpu::WAVE_EVEN),
             layer,
@@ -482,8 +488,8 @@ pub(crate) fn view_values(
         squares_across: squares[0],
         square_count: squares[0] * squares[1],
         capacity: grid.capacity,
-        wave_count: data.count,
-        layer_count: data.layers.len() as u32,
+        reserved_3: 0,
+        reserved_4: 0,
         gbuffer_scale,
         flags: if is_orthographic { gpu::WAVE_VIEW_ORTHOGRAPHIC } else { 0 },
         reference_points,
