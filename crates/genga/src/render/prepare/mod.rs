@@ -202,6 +202,9 @@ impl Prepared {
     }
 }
 
+/// A mesh, and where the hatching directions of its primitives come from.
+type ChunkKey = (usize, Vec<Option<Source>>);
+
 /// Everything while it is put together.
 struct Builder<'a> {
     device: &'a wgpu::Device,
@@ -212,8 +215,8 @@ struct Builder<'a> {
     textures: Textures<'a>,
     looks: Looks<'a>,
     highlights: HighlightSets<'a>,
-    /// By mesh and where the primitives' directions come from, then by primitive.
-    chunks: HashMap<(usize, Vec<Option<Source>>), Vec<Vec<Chunk>>>,
+    /// By primitive.
+    chunks: HashMap<ChunkKey, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
     /// By material, picture of ids and picture of hatching.
     material_of: HashMap<[Option<usize>; 3], usize>,
