@@ -99,7 +99,8 @@ fn ending(kind: LayerKind) -> &'static str {
         | LayerKind::Highlight
         | LayerKind::Base
         | LayerKind::Tone
-        | LayerKind::Shadow => "png",
+        | LayerKind::Shadow
+        | LayerKind::Ink => "png",
         LayerKind::Depth
         | LayerKind::Normal
         | LayerKind::Ids
@@ -117,7 +118,8 @@ fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
         | LayerKind::Highlight
         | LayerKind::Base
         | LayerKind::Tone
-        | LayerKind::Shadow => &["R", "G", "B", "A"],
+        | LayerKind::Shadow
+        | LayerKind::Ink => &["R", "G", "B", "A"],
         LayerKind::HighlightUv => &["drawing.X", "drawing.Y", "drawing.Z"],
         LayerKind::LineMask => &["set.1", "set.2", "set.3", "set.4"],
         LayerKind::LineType => &["line.type"],

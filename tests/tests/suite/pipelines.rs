@@ -8,7 +8,7 @@ use genga::scene::{
     AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene, Wave,
     WaveBlend, WaveMethod, WaveOrder, WaveShape,
 };
-use genga::style::Globs;
+use genga::style::{Globs, HatchMapping};
 use genga::{shapes, style::Style};
 use genga_tests::scenes::{Builder, moved, ortho_view, parts, perspective_view, style};
 use glam::{Quat, Vec3, Vec4};
@@ -95,6 +95,19 @@ fn styles() -> Vec<Style> {
     let mut styles: Vec<Style> =
         METHODS.iter().map(|m| style(&format!("[lines]\nmethod = \"{m}\""))).collect();
     styles.push(style("[paint]\nblend_space = \"linear\""));
+    let mut pictured = style("[paint.hatch]\npattern = \"image\"");
+    let picture = genga_tests::scenes::image(2, 2, |x, _| [128 * x as u8; 4]);
+    pictured.paint.hatch.image = Some(Arc::new(picture));
+    for mapping in [HatchMapping::Surface, HatchMapping::Uv, HatchMapping::Screen] {
+        pictured.paint.hatch.mapping = mapping;
+        styles.push(pictured.clone());
+    }
+    for pattern in ["strokes", "cross", "solid", "stipple", "pencil", "dots"] {
+        for mapping in ["surface", "uv", "screen"] {
+            let hatch = format!("pattern = \"{pattern}\"\nmapping = \"{mapping}\"");
+            styles.push(style(&format!("[paint.hatch]\n{hatch}")));
+        }
+    }
     styles
 }
 

@@ -1,5 +1,6 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod hatching;
 mod highlights;
 mod lines;
 mod sheet;
@@ -34,6 +35,8 @@ pub(crate) enum Part {
     Highlights,
     /// The sheets and showpieces of energy waves
     Waves,
+    /// The sheets of hatching
+    Hatching,
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed: the named
@@ -54,6 +57,9 @@ pub(crate) fn gallery(root: &Path, parts: &[Part]) -> Result<()> {
     }
     if wanted(Part::Waves) {
         waves::draw(root, &genga, &folder)?;
+    }
+    if wanted(Part::Hatching) {
+        hatching::draw(root, &genga, &folder)?;
     }
     println!("\nthe pictures are in {}", folder.display());
     Ok(())

@@ -180,6 +180,8 @@ pub(crate) enum LayerName {
     Tone,
     /// Cast shadows alone, black on white (PNG)
     Shadow,
+    /// Hatching alone (PNG)
+    Ink,
 }
 
 impl LayerName {
@@ -199,6 +201,7 @@ impl LayerName {
             Self::Base => LayerKind::Base,
             Self::Tone => LayerKind::Tone,
             Self::Shadow => LayerKind::Shadow,
+            Self::Ink => LayerKind::Ink,
         }
     }
 }

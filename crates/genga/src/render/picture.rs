@@ -58,11 +58,14 @@ pub enum LayerKind {
     /// them, by their weights: RGBA, straight alpha. Surfaces turned away from a light count as
     /// reached; their shade is in [`Self::Tone`].
     Shadow,
+    /// Hatching alone, in front of what hides it: RGBA, sRGB-encoded, straight alpha. It lies over
+    /// [`Self::Tone`], which it multiplies, and under highlights.
+    Ink,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Color,
         Self::Depth,
         Self::Normal,
@@ -76,6 +79,7 @@ impl LayerKind {
         Self::Base,
         Self::Tone,
         Self::Shadow,
+        Self::Ink,
     ];
 
     /// Name in file names and options.
@@ -95,6 +99,7 @@ impl LayerKind {
             Self::Base => "base",
             Self::Tone => "tone",
             Self::Shadow => "shadow",
+            Self::Ink => "ink",
         }
     }
 }
@@ -290,7 +295,8 @@ impl Renderer {
                     | LayerKind::Highlight
                     | LayerKind::Base
                     | LayerKind::Tone
-                    | LayerKind::Shadow => {
+                    | LayerKind::Shadow
+                    | LayerKind::Ink => {
                         let paint = layer.kind != LayerKind::Lines;
                         let output = Output { paint, lines: !paint, ..output };
                         self.write_frame(prepared, view, &projected, tile, output);
@@ -343,6 +349,7 @@ fn paint_output(kind: LayerKind) -> Option<PaintOutput> {
         LayerKind::Base => Some(PaintOutput::Base),
         LayerKind::Tone => Some(PaintOutput::Tone),
         LayerKind::Shadow => Some(PaintOutput::Shadow),
+        LayerKind::Ink => Some(PaintOutput::Ink),
         _ => None,
     }
 }
@@ -478,7 +485,8 @@ fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
         | LayerKind::Highlight
         | LayerKind::Base
         | LayerKind::Tone
-        | LayerKind::Shadow => LayerData::Rgba8(vec![0; 4 * pixels]),
+        | LayerKind::Shadow
+        | LayerKind::Ink => LayerData::Rgba8(vec![0; 4 * pixels]),
         LayerKind::Depth | LayerKind::Energy => {
             LayerData::F32 { channels: 1, values: vec![0.0; pixels] }
         }

@@ -120,7 +120,7 @@ pub enum HatchDirection {
     /// Where the surface bends most: round limbs and folds.
     #[default]
     Curvature,
-    /// Across the bones of the skin.
+    /// Across the bones of the skin; where there is none, by curvature.
     Bone,
     /// From shade to light.
     Light,

@@ -17,7 +17,7 @@ fn presets_are_read_and_differ() {
         assert!(styles[..i].iter().all(|other| other != style));
     }
     let comic = Style::preset("american-comic").expect("it is a preset");
-    assert_eq!(comic.paint.ramp.stops[0].color, Color::BLACK);
+    assert_eq!(comic.paint.hatch.pattern, HatchPattern::Strokes);
     assert_eq!(comic.lines.sets[1].types[0], LineType::Silhouette);
     assert_eq!(Style::preset("blueprint").expect("it is a preset").paint.base, BaseColor::None);
     assert_eq!(Style::preset("no-such"), None);
@@ -163,6 +163,26 @@ fn errors_name_the_place_and_the_remedy() {
         (
             "version = 1\npaint.shade_bias = nan",
             "2:20: 'shade_bias' must be a number from -1 to 1, not nan",
+        ),
+        (
+            "version = 1\npaint.hatch.pattern = \"strocks\"",
+            "2:23: 'pattern' must be \"none\", \"strokes\", \"cross\", \"solid\", \"stipple\", \"pencil\", \"dots\" or \"image\", not \"strocks\"",
+        ),
+        (
+            "version = 1\npaint.hatch.spacing = 0",
+            "2:23: 'spacing' must be a number from 1 to 1000, not 0",
+        ),
+        (
+            "version = 1\npaint.hatch.spaceing = 4",
+            "2:13: unknown key 'spaceing', did you mean 'spacing'?",
+        ),
+        (
+            "version = 1\npaint.hatch.tones = [{ at = 0.5, lum = 0 }, { at = 0.5, lum = 1 }]",
+            "2:45: 'tones' must be in rising order, but one at 0.5 follows one at 0.5",
+        ),
+        (
+            "version = 1\npaint.hatch.axis = [0, 0, 0]",
+            "2:20: 'axis' must be a direction: three numbers that are not all 0",
         ),
         (
             "version = 1\n[[lines.sets]]\nwidth = -1",
@@ -313,4 +333,15 @@ fn hue_ranges_may_go_over_red() {
         let color: Color = color.parse().expect("it is a colour");
         assert_eq!((reds.contains(color), range.contains(color)), (is_red, is_in_range), "{color}");
     }
+}
+
+#[test]
+fn hatching_begins_with_its_preset() {
+    let text = "version = 1\n[paint.hatch]\npreset = \"cloth\"\nspacing = 4.5\n\
+                [[override]]\npaint.hatch = { preset = \"metal\" }";
+    let style = Style::from_toml_str(text).expect("it is valid");
+    let cloth = Hatch::preset(HatchPreset::Cloth);
+    assert_eq!(style.paint.hatch, Hatch { spacing: 4.5, ..cloth });
+    assert_eq!(style.overrides[0].paint.hatch, Some(Hatch::preset(HatchPreset::Metal)));
+    assert_eq!(Style::default().paint.hatch.pattern, HatchPattern::None);
 }

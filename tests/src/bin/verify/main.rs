@@ -3,6 +3,7 @@
 //! Exits with 1 if anything is not as it must be.
 
 mod contours;
+mod hatching;
 mod motion;
 mod outlines;
 mod scales;
@@ -43,7 +44,7 @@ fn main() -> ExitCode {
     let info = shared().gpu.info();
     println!("adapter: {} ({:?})", info.name, info.backend);
     let mut report = Report::default();
-    let parts: [Part; 11] = [
+    let parts: [Part; 12] = [
         ("contours", contours::contours),
         ("outlines", outlines::outlines),
         ("scales", scales::scales),
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         ("highlights", highlights),
         ("highlight-cost", highlight_cost),
         ("waves", waves::run),
+        ("hatching", hatching::run),
     ];
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if let Some(unknown) = wanted.iter().find(|w| parts.iter().all(|(name, _)| name != w)) {

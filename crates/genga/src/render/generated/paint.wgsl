@@ -82,6 +82,8 @@ const DRAW_MIRRORED: u32 = 8u;
 
 const DRAW_UNLIT: u32 = 1u;
 
+const END_JITTER: f32 = 0.21;
+
 const FAR_OUTSIDE: f32 = 10000.0;
 
 const FIELD_EXTENT: f32 = 1.25;
@@ -90,7 +92,9 @@ const FRAME_LINEAR_BLEND: u32 = 1u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
-const GAP: f32 = 0.03;
+const GAP: f32 = 0.015;
+
+const GAP_JITTER: f32 = 0.03;
 
 const GRAZING: f32 = 0.35;
 
@@ -158,6 +162,8 @@ const OUTPUT_COORDINATES: u32 = 2u;
 
 const OUTPUT_HIGHLIGHT: u32 = 1u;
 
+const OUTPUT_INK: u32 = 6u;
+
 const OUTPUT_PICTURE: u32 = 0u;
 
 const OUTPUT_SHADOW: u32 = 5u;
@@ -170,7 +176,7 @@ const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
 
-const TAPER: f32 = 0.22;
+const TAPER: f32 = 0.12;
 
 const TAU: f32 = 6.2831853;
 
@@ -709,14 +715,14 @@ fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
     let even = hatch_hash(line, along.even * along.period, seed);
     let far = hatch_hash(line, along.far * along.period, seed);
     let odd_own = hatch_hash(line, along.odd * along.period, seed);
-    let odd = mix(odd_own, 0.5 * (even + far), along.frac);
-    let way = abs(along.x - along.even);
+    let way = vec2f(1.0, 0.5) * abs(along.x - along.even);
     let smoothed = way * way * (3.0 - 2.0 * way);
-    let both = mix(even.xy, odd.xy, smoothed);
-    let place = vec2f(along.even + 0.42 * even.z, along.odd + 0.42 * odd_own.z);
-    let half_width = vec2f(GAP) + 0.05 * (1.0 + vec2f(even.w, odd_own.w));
+    let both = mix(mix(even.xy, odd_own.xy, smoothed.x), mix(even.xy, far.xy, smoothed.y), along.frac);
+    let size = exp2(along.frac);
+    let place = vec2f(along.even, along.odd) + size * END_JITTER * vec2f(even.z, odd_own.z);
+    let half_width = size * (GAP + GAP_JITTER * (1.0 + vec2f(even.w, odd_own.w)));
     let distance = abs(vec2f(along.x) - place) - half_width;
-    let open = 1.0 - smoothstep(vec2f(0.0), vec2f(TAPER), distance);
+    let open = 1.0 - smoothstep(vec2f(0.0), vec2f(size * TAPER), distance);
     return Hand(both.x, 0.6 * both.y + 0.5 * own.y, max(open.x, open.y * (1.0 - along.frac)));
 }
 
@@ -1434,7 +1440,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if ((draw_flags & DRAW_ALPHA_BLEND) != 0u) {
         alpha = saturate(material.alpha);
     }
-    if ((look_flags & LOOK_BASE_NONE) != 0u) {
+    if (OUTPUT == OUTPUT_INK || (look_flags & LOOK_BASE_NONE) != 0u) {
         color = vec3f(0.0);
         alpha = 0.0;
     }
@@ -1475,10 +1481,11 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let weight = vec2f(even.weight, odd.weight);
     let gap = vec2f(even.gap, odd.gap) * select(0.0, 1.0, pen.length > 0.0);
     let loose = pen.irregularity;
-    let light = saturate(1.0 - pen.darkness);
-    let apart = min(2.5 * light, 1.0);
     let carried = saturate(share.x + share.y * weight.yx);
-    let darkness = vec2f(pen.darkness) + loose * (apart * (0.15 + 0.55 * light) * (weight - 1.0) - 1.8 * light * light * gap);
+    let light = saturate(1.0 - pen.darkness);
+    let black = saturate(2.5 * (1.3 - pen.darkness));
+    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(pen.darkness, 0.0)));
+    let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - exp2(carried * log2(1.0 - tone));
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
@@ -1487,7 +1494,8 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let moved = 0.16 * loose * exp2(lines.frac) * shift;
     let d = vec2f(lines.x - lines.even, lines.x - lines.odd) - moved;
     let texel = pen.texel * exp2(lines.frac) / pen.spacing;
-    return min(stroke_coverage(d.x, half_widths.x, texel) + stroke_coverage(d.y, half_widths.y, texel), 1.0);
+    let ink = stroke_coverage(d.x, half_widths.x, texel) + stroke_coverage(d.y, half_widths.y, texel);
+    return select(min(ink, 1.0), 0.0, slope < 1e-20);
 }
 
 fn surface_coverage(in: Surface, front_facing: bool) -> vec4f {
@@ -1593,7 +1601,11 @@ fn hatched_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: boo
     let point = hatch_point(in);
     let surface = surface_of(in);
     let shaded = shade(surface, front_facing);
-    return with_rim(surface, shaded, inked(shaded, point, in.draw));
+    let color = inked(shaded, point, in.draw);
+    if (OUTPUT != OUTPUT_PICTURE) {
+        return color;
+    }
+    return with_rim(surface, shaded, color);
 }
 
 @fragment

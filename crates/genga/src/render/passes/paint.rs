@@ -30,6 +30,8 @@ pub(crate) enum PaintOutput {
     Tone,
     /// White where lights reach, black in cast shadows.
     Shadow,
+    /// The ink of hatching.
+    Ink,
 }
 
 pub(crate) struct PaintPass {
@@ -92,6 +94,7 @@ impl PaintPass {
                 PaintOutput::Base => 3,
                 PaintOutput::Tone => 4,
                 PaintOutput::Shadow => 5,
+                PaintOutput::Ink => 6,
             };
             Variant { highlights, hatch, shadows, output, ..Variant::of(item, samples) }
         };
@@ -115,7 +118,7 @@ impl PaintPass {
 
 /// Whether surfaces are inked.
 fn output_has_ink(output: PaintOutput) -> bool {
-    matches!(output, PaintOutput::All | PaintOutput::Plain)
+    matches!(output, PaintOutput::All | PaintOutput::Plain | PaintOutput::Ink)
 }
 
 /// How a draw's pipeline draws highlights.
@@ -128,6 +131,10 @@ fn highlight_variant(
     match output {
         PaintOutput::All => (variant.count > 0).then_some(variant),
         PaintOutput::Highlights | PaintOutput::Coordinates => Some(variant),
-        PaintOutput::Plain | PaintOutput::Base | PaintOutput::Tone | PaintOutput::Shadow => None,
+        PaintOutput::Plain
+        | PaintOutput::Base
+        | PaintOutput::Tone
+        | PaintOutput::Shadow
+        | PaintOutput::Ink => None,
     }
 }

@@ -6,9 +6,10 @@ use std::collections::HashMap;
 use glam::{Mat3, Vec2, Vec3};
 
 use crate::scene::{Mesh, Primitive, Scene};
+use crate::style::HatchDirection;
 
 /// Where a mesh's directions come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Source {
     /// The surface's own bends.
     Curvature,
@@ -16,6 +17,34 @@ pub(crate) enum Source {
     Bone(usize),
     /// The vertex attribute, else the bends.
     Painted,
+}
+
+impl Source {
+    /// `None` for directions that pixels know by themselves.
+    pub(crate) fn of(direction: HatchDirection, skin: Option<usize>) -> Option<Self> {
+        match (direction, skin) {
+            (HatchDirection::Light | HatchDirection::Fixed, _) => None,
+            (HatchDirection::Bone, Some(skin)) => Some(Self::Bone(skin)),
+            (HatchDirection::Painted, _) => Some(Self::Painted),
+            (HatchDirection::Bone | HatchDirection::Curvature, _) => Some(Self::Curvature),
+        }
+    }
+}
+
+/// Directions by primitive and vertex, each primitive's from its own source; nothing for those
+/// without one.
+pub(crate) fn of_primitives(
+    scene: &Scene,
+    mesh: &Mesh,
+    sources: &[Option<Source>],
+) -> Vec<Vec<Vec3>> {
+    let mut known: HashMap<Source, Vec<Vec<Vec3>>> = HashMap::new();
+    let of = |(p, source): (usize, &Option<Source>)| {
+        let source = (*source)?;
+        let all = known.entry(source).or_insert_with(|| directions(scene, mesh, source));
+        all.get_mut(p).map(std::mem::take)
+    };
+    sources.iter().enumerate().map(of).map(Option::unwrap_or_default).collect()
 }
 
 /// Radius over which bends are averaged, as a part of the mesh's diagonal.
@@ -233,7 +262,7 @@ impl Places {
 }
 
 /// Unit directions of the strokes of a mesh, by primitive and vertex, across the normals.
-pub(crate) fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
+fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
     let places = Places::new(mesh);
     let count = places.positions.len();
     // Round the vertical, where nothing else is known.

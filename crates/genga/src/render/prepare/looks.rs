@@ -41,11 +41,14 @@ pub(crate) struct HatchRange {
     /// Whose directions the vertices get, if any look takes theirs.
     pub(crate) direction: Option<HatchDirection>,
     pub(crate) image: Option<Arc<Image>>,
+    /// Whether texture coordinates are needed.
+    pub(crate) on_uv: bool,
 }
 
 impl HatchRange {
     fn include(&mut self, hatch: &Hatch) {
-        if hatch.pattern == HatchPattern::None {
+        let no_image = hatch.pattern == HatchPattern::Image && hatch.image.is_none();
+        if hatch.pattern == HatchPattern::None || no_image {
             return;
         }
         let mut variant = self.variant.unwrap_or_default();
@@ -82,6 +85,7 @@ impl HatchRange {
             }
         } else if is_drawn {
             variant.has_plane = true;
+            self.on_uv |= hatch.mapping == HatchMapping::Uv;
         }
         self.variant = Some(variant);
     }
@@ -181,6 +185,12 @@ impl<'a> Looks<'a> {
                     apply(o, &mut paint, &mut lines);
                 }
             }
+            if paint.hatch.pattern == HatchPattern::Image && paint.hatch.image.is_none() {
+                self.warn(format!(
+                    "object '{object}', material '{material}': its hatching is an image, but the \
+                     style names none: none is drawn"
+                ));
+            }
             hatch.include(&paint.hatch);
             let look = self.look(&paint, &lines);
             self.looks.push(look);
@@ -261,7 +271,7 @@ impl<'a> Looks<'a> {
         self.looks.iter().map(|look| look.line_width).fold(0.0, f32::max)
     }
 
-    fn warn(&mut self, warning: String) {
+    pub(crate) fn warn(&mut self, warning: String) {
         if self.warnings.len() < 20 && !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }

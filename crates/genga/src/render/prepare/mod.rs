@@ -36,7 +36,7 @@ use super::{
 };
 use crate::render::passes::surface::HatchVariant;
 use crate::scene::{Aabb, AlphaMode, Image, Material, Pose, Sampler, Scene, TextureRef};
-use crate::style::{self, HatchDirection, LineSet, Style};
+use crate::style::{self, LineSet, Style};
 
 /// A scene under a style, ready to be drawn in any view.
 pub struct Prepared {
@@ -202,6 +202,9 @@ impl Prepared {
     }
 }
 
+/// A mesh, and where the hatching directions of its primitives come from.
+type ChunkKey = (usize, Vec<Option<Source>>);
+
 /// Everything while it is put together.
 struct Builder<'a> {
     device: &'a wgpu::Device,
@@ -212,8 +215,8 @@ struct Builder<'a> {
     textures: Textures<'a>,
     looks: Looks<'a>,
     highlights: HighlightSets<'a>,
-    /// By mesh, then by primitive.
-    chunks: HashMap<usize, Vec<Vec<Chunk>>>,
+    /// By primitive.
+    chunks: HashMap<ChunkKey, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
     /// By material, picture of ids and picture of hatching.
     material_of: HashMap<[Option<usize>; 3], usize>,
@@ -291,7 +294,18 @@ impl<'a> Builder<'a> {
                 self.looks.range(&node.name, material)
             })
             .collect();
-        let chunks_of = match self.chunks.get(&mesh_index) {
+        for (range, primitive) in ranges.iter().zip(&mesh.primitives) {
+            if range.hatch.on_uv && primitive.uvs.is_empty() {
+                self.looks.warn(format!(
+                    "object '{}': its hatching lies on texture coordinates, which it does not have: \
+                     none is drawn",
+                    node.name
+                ));
+            }
+        }
+        let sources: Vec<Option<Source>> =
+            ranges.iter().map(|range| Source::of(range.hatch.direction?, node.skin)).collect();
+        let chunks_of = match self.chunks.get(&(mesh_index, sources.clone())) {
             Some(chunks) => chunks.clone(),
             None => {
                 let uv_set = |t: Option<TextureRef>| t.map_or(0, |t| t.uv_set);
@@ -300,18 +314,10 @@ impl<'a> Builder<'a> {
                         [material.base_color_texture, material.emissive_texture].map(uv_set)
                     })
                 });
-                let source = ranges.iter().find_map(|range| range.hatch.direction);
-                let directions = source.map(|source| {
-                    let source = match (source, node.skin) {
-                        (HatchDirection::Bone, Some(skin)) => Source::Bone(skin),
-                        (HatchDirection::Painted, _) => Source::Painted,
-                        _ => Source::Curvature,
-                    };
-                    directions::directions(scene, mesh, source)
-                });
+                let directions = directions::of_primitives(scene, mesh, &sources);
                 let uv_sets: Vec<_> = uv_sets.collect();
-                let chunks = self.geometry.add(mesh, &uv_sets, &directions.unwrap_or_default());
-                self.chunks.insert(mesh_index, chunks.clone());
+                let chunks = self.geometry.add(mesh, &uv_sets, &directions);
+                self.chunks.insert((mesh_index, sources), chunks.clone());
                 chunks
             }
         };
