@@ -30,6 +30,7 @@ mod paint;
 pub(crate) mod picture;
 mod presets;
 mod shadow;
+mod shine;
 #[cfg(test)]
 mod tests;
 mod widths;
@@ -49,6 +50,7 @@ pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
 pub use shadow::{Shadow, ShadowOverride};
+pub use shine::{Dots, RimLight, Sheen, ShineBlend, Specular, SpecularForm};
 pub use widths::{Curve, WidthBy, Wobble};
 
 /// A whole look.

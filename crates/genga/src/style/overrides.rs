@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::{BaseColor, Color, Globs, Ramp, ShadowOverride, picture};
+use super::{BaseColor, Color, Globs, Ramp, RimLight, ShadowOverride, Sheen, Specular, picture};
 use crate::scene::Image;
 
 /// What differs for a part of the scene.
@@ -118,6 +118,12 @@ pub struct PaintOverride {
     pub shade_bias: Option<f32>,
     /// Cast shadows.
     pub shadow: ShadowOverride,
+    /// Instead of the style's `paint.specular`; a strength of 0 is none.
+    pub specular: Option<Specular>,
+    /// Instead of the style's `paint.rim_light`; a strength of 0 is none.
+    pub rim_light: Option<RimLight>,
+    /// Instead of the style's `paint.sheen`; a strength of 0 is none.
+    pub sheen: Option<Sheen>,
 }
 
 /// Changes to lines; what is `None` stays.

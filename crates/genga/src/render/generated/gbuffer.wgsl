@@ -91,10 +91,12 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
-    reserved_0: u32,
-    reserved_1: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct GBuffer {
@@ -126,6 +128,9 @@ struct LineSet {
 struct Look {
     fixed_color: vec4f,
     tones: array<Tone, 8>,
+    specular: Specular,
+    rim_light: RimLight,
+    sheen: Sheen,
     tone_count: u32,
     flags: u32,
     gain: f32,
@@ -147,6 +152,21 @@ struct MaterialSample {
     look: u32
 }
 
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
+}
+
+struct RimLight {
+    color: vec4f,
+    direction: vec3f,
+    threshold: f32,
+    softness: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32
+}
+
 struct Rule {
     conditions: u32,
     id_tolerance: f32,
@@ -157,6 +177,33 @@ struct Rule {
     vertex_low: vec4f,
     vertex_high: vec4f,
     id_color: vec4f
+}
+
+struct Sheen {
+    color: vec4f,
+    turn: vec2f,
+    spacing: f32,
+    offset: f32,
+    width: f32,
+    second: f32,
+    gap: f32,
+    flags: u32
+}
+
+struct Specular {
+    color: vec4f,
+    translate: vec2f,
+    scale: vec2f,
+    split: vec2f,
+    turn: vec2f,
+    exponent: f32,
+    threshold: f32,
+    gradient: f32,
+    square: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Surface {

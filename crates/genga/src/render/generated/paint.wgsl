@@ -136,6 +136,12 @@ const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
 
+const SHINE_GRADIENT: u32 = 1u;
+
+const SHINE_PAPER: u32 = 4u;
+
+const SHINE_REPLACE: u32 = 2u;
+
 const TAU: f32 = 6.2831853;
 
 struct Detect {
@@ -200,10 +206,25 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
-    reserved_0: u32,
-    reserved_1: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
+}
+
+struct Glance {
+    half: vec3f,
+    half_x: vec3f,
+    half_y: vec3f,
+    normal: vec3f,
+    normal_x: vec3f,
+    normal_y: vec3f,
+    p_in_world: vec3f,
+    p_x: vec3f,
+    p_y: vec3f,
+    facing: f32
 }
 
 struct Highlight {
@@ -276,6 +297,9 @@ struct LineSet {
 struct Look {
     fixed_color: vec4f,
     tones: array<Tone, 8>,
+    specular: Specular,
+    rim_light: RimLight,
+    sheen: Sheen,
     tone_count: u32,
     flags: u32,
     gain: f32,
@@ -297,6 +321,11 @@ struct MaterialSample {
     look: u32
 }
 
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
+}
+
 struct RampColor {
     factor: vec3f,
     added: vec3f
@@ -308,6 +337,16 @@ struct Receiver {
     py: vec3f,
     face: vec3f,
     clearance: f32
+}
+
+struct RimLight {
+    color: vec4f,
+    direction: vec3f,
+    threshold: f32,
+    softness: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32
 }
 
 struct Rule {
@@ -328,6 +367,7 @@ struct Shaded {
     t: f32,
     t_width: f32,
     reach: f32,
+    key_reach: f32,
     rim: f32,
     rim_width: f32
 }
@@ -339,6 +379,33 @@ struct ShadowMap {
     texel_m: f32,
     depth_scale: f32,
     is_perspective: f32
+}
+
+struct Sheen {
+    color: vec4f,
+    turn: vec2f,
+    spacing: f32,
+    offset: f32,
+    width: f32,
+    second: f32,
+    gap: f32,
+    flags: u32
+}
+
+struct Specular {
+    color: vec4f,
+    translate: vec2f,
+    scale: vec2f,
+    split: vec2f,
+    turn: vec2f,
+    exponent: f32,
+    threshold: f32,
+    gradient: f32,
+    square: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Surface {
@@ -399,10 +466,32 @@ fn brightest_tone(look: u32, t: f32, width: f32) -> f32 {
     return select(1.0, saturate((t - looks[look].tones[last].at) / edge + 0.5), last > 0u);
 }
 
+fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split: vec2f, square: f32) -> f32 {
+    var h = vec3f(half.x * turn.x + half.y * turn.y, half.y * turn.x - half.x * turn.y, half.z);
+    h = unit(vec3f(h.xy * (1.0 - scale), h.z));
+    h = unit(h + vec3f(translate.x * turn.x + translate.y * turn.y, translate.y * turn.x - translate.x * turn.y, 0.0));
+    h = unit(vec3f(h.xy - split * select(vec2f(-1.0), vec2f(1.0), h.xy >= vec2f(0.0)), h.z));
+    let corner = max(abs(h.x), abs(h.y)) / max(length(h.xy), 1e-6);
+    h = unit(vec3f(h.xy * mix(1.0, corner, square), h.z));
+    return max(h.z, 0.0);
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn dot_coverage(p: vec2f, turn: vec2f, spacing: f32, ink: f32) -> f32 {
+    let q = vec2f(p.x * turn.x + p.y * turn.y, p.y * turn.x - p.x * turn.y) / spacing;
+    let is_hole = ink > 0.5;
+    let area = select(ink, 1.0 - ink, is_hole);
+    let shift = select(0.0, 0.5, is_hole);
+    let to_center = q + shift - round(q + shift);
+    let radius = spacing * sqrt(max(area, 0.0) / 3.14159265);
+    var covered = saturate(radius - spacing * length(to_center) + 0.5);
+    covered *= saturate(2.0 * radius);
+    return select(covered, 1.0 - covered, is_hole);
 }
 
 fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
@@ -472,6 +561,30 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
     return frame.pixel_footprint * distance;
 }
 
+fn glance_at(p_in_world: vec3f, normal: vec3f, to_eye: vec3f, to_light: vec3f) -> Glance {
+    let between = to_light + to_eye;
+    let h = between * inverseSqrt(max(dot(between, between), 1e-12));
+    let across = cross(frame.camera_up.xyz, normal);
+    let u = across * inverseSqrt(max(dot(across, across), 1e-12));
+    let v = cross(normal, u);
+    let half = vec3f(dot(h, u), dot(h, v), dot(h, normal));
+    return Glance(half, half + dpdx(half), half + dpdy(half), normal, normal + dpdx(normal), normal + dpdy(normal), p_in_world, p_in_world + dpdx(p_in_world), p_in_world + dpdy(p_in_world), dot(normal, to_light));
+}
+
+fn glance_of(in: Surface, front_facing: bool) -> Glance {
+    var glance: Glance;
+    if (SPECULAR || RIM_LIGHT || SHEEN) {
+        let normal = facing_normal(in, front_facing);
+        let to_light = light_term(lights[0], in.p_in_world, normal).to_light;
+        glance = glance_at(in.p_in_world, normal, to_eye(frame, in.p_in_world), to_light);
+    }
+    return glance;
+}
+
+fn gradient_highlight(i: f32, b: f32, m: f32) -> f32 {
+    return select(0.0, saturate(0.5 * (i - b) * pow(2.5 * b + i, m)), i > b);
+}
+
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
     var distances = vec4f(FAR_OUTSIDE);
     if (HIGHLIGHTS > 0u) {
@@ -535,6 +648,16 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
 
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
     return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
+}
+
+fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
+    let strength = color.a * coverage;
+    let alpha = mix(below.a, 1.0, strength);
+    if ((flags & (SHINE_REPLACE | SHINE_PAPER)) != 0u) {
+        return vec4f(mix(below.rgb, color.rgb, strength), alpha);
+    }
+    let added = min(below.rgb + color.rgb * strength, vec3f(alpha));
+    return vec4f(max(below.rgb, added), alpha);
 }
 
 fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
@@ -668,6 +791,23 @@ fn material_sample(in: Surface) -> MaterialSample {
     return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
 }
 
+fn nearest_color(color: vec3f) -> vec3f {
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let clamped = saturate(color);
+    let lab = oklab_from_linear(select(linear_from_display(clamped), clamped, is_linear));
+    var best = 0u;
+    var least = 1000000000.0;
+    for (var i = 0u; i < frame.palette_count; i++) {
+        let d = lab - frame.palette[i].lab.xyz;
+        let distance = dot(d, d);
+        if (distance < least) {
+            least = distance;
+            best = i;
+        }
+    }
+    return frame.palette[best].color.rgb;
+}
+
 fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
     if (SHARE_PROXY) {
         return drawing_lookup(i, first).z;
@@ -684,6 +824,18 @@ fn octahedral_unpack(bits: u32) -> vec3f {
     return normalize(n);
 }
 
+fn oklab_from_linear(c: vec3f) -> vec3f {
+    let l = dot(c, vec3f(0.4122214708, 0.5363325363, 0.0514459929));
+    let m = dot(c, vec3f(0.2119034982, 0.6806995451, 0.1073969566));
+    let s = dot(c, vec3f(0.0883024619, 0.2817188376, 0.6299787005));
+    let r = pow(max(vec3f(l, m, s), vec3f(0.0)), vec3f(1.0 / 3.0));
+    return vec3f(dot(r, vec3f(0.2104542553, 0.793617785, -0.0040720468)), dot(r, vec3f(1.9779984951, -2.428592205, 0.4505937099)), dot(r, vec3f(0.0259040371, 0.7827717662, -0.808675766)));
+}
+
+fn part_inside(x: f32, w: f32, end: f32) -> f32 {
+    return saturate((min(x + 0.5 * w, end) - max(x - 0.5 * w, 0.0)) / w);
+}
+
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
@@ -692,6 +844,15 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
 fn place_in_map(map: u32, p_in_world: vec3f) -> vec2f {
     let clip = shadow_maps[map].clip_from_world * vec4f(p_in_world, 1.0);
     return (clip.xy / max(clip.w, 1e-12) * vec2f(0.5, -0.5) + 0.5) * shadow_maps[map].texels;
+}
+
+fn printed_color(color: vec3f, p_px: vec2f) -> vec3f {
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let clamped = saturate(color);
+    let shown = select(clamped, display_from_linear(clamped), is_linear);
+    let spacing = frame.dots_spacing;
+    let printed = 1.0 - vec3f(dot_coverage(p_px, frame.dots_turns[0].xy, spacing, 1.0 - shown.r), dot_coverage(p_px, frame.dots_turns[0].zw, spacing, 1.0 - shown.g), dot_coverage(p_px, frame.dots_turns[1].xy, spacing, 1.0 - shown.b));
+    return select(printed, linear_from_display(printed), is_linear);
 }
 
 fn proxy_normal(i: u32, p_in_world: vec3f) -> vec3f {
@@ -723,11 +884,7 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
             weight = saturate((t - previous_at) / max(at - previous_at, 1e-6));
         }
         else {
-            let softness = looks[look].tones[i].softness;
-            weight = saturate((t - at) / max(max(softness, width), MIN_WIDTH) + 0.5);
-            if (softness > width) {
-                weight = weight * weight * (3.0 - 2.0 * weight);
-            }
+            weight = tone_weight(look, i, t, width);
         }
         if (weight > 0.0) {
             let next = tone_color(look, i);
@@ -773,6 +930,16 @@ fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> ve
     }
     let n_squared = dot(n, n);
     return vec4f(2.0 * dot(n, to_eye) * n - n_squared * to_eye, n_squared);
+}
+
+fn rim_coverage(look: u32, glance: Glance) -> f32 {
+    let d = looks[look].rim_light.direction;
+    let l = d.x * frame.camera_right.xyz + d.y * frame.camera_up.xyz + d.z * frame.camera_back.xyz;
+    let here = 0.5 + 0.5 * dot(glance.normal, l);
+    let x = 0.5 * dot(glance.normal_x - glance.normal, l);
+    let y = 0.5 * dot(glance.normal_y - glance.normal, l);
+    let width = max(max(looks[look].rim_light.softness, length(vec2f(x, y))), 0.0001);
+    return saturate((here - looks[look].rim_light.threshold) / width + 0.5);
 }
 
 fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
@@ -838,6 +1005,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var t_dark = t_free;
     var lit = 1.0;
     var reach = 1.0;
+    var key_reach = 1.0;
     if (SHADOWS) {
         if ((look_flags & LOOK_UNSHADOWED) == 0u) {
             let tone = looks[look_index].shadow_tone;
@@ -846,6 +1014,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
+            key_reach = terms[0].y;
             for (var i = 0u; i < frame.light_count; i++) {
                 let weight = lights[i].factors.x;
                 let term = terms[i].x;
@@ -883,11 +1052,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             }
         }
         else {
-            let ramp = ramp_color(look_index, t_lit, free_width);
-            color = base * ramp.factor + ramp.added;
+            color = under_ramp(look_index, base, t_lit, free_width);
             if (SHADOWS) {
-                let dark = ramp_color(look_index, t_dark, free_width);
-                color = mix(base * dark.factor + dark.added, color, lit);
+                color = mix(under_ramp(look_index, base, t_dark, free_width), color, lit);
             }
         }
     }
@@ -897,6 +1064,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
     }
+    if (DOTS && OUTPUT < OUTPUT_BASE) {
+        color = printed_color(color, frame.viewport_origin + in.clip.xy / frame.paint_scale);
+    }
     var alpha = 1.0;
     if ((draw_flags & DRAW_ALPHA_BLEND) != 0u) {
         alpha = saturate(material.alpha);
@@ -905,11 +1075,59 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         color = vec3f(0.0);
         alpha = 0.0;
     }
-    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, rim, rim_width);
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, key_reach, rim, rim_width);
+}
+
+fn sheen_coverage(look: u32, glance: Glance) -> f32 {
+    let turn = looks[look].sheen.turn;
+    let across = turn.x * frame.camera_right.xyz - turn.y * frame.camera_up.xyz;
+    let per_m = 1.0 / looks[look].sheen.spacing;
+    let x = dot(glance.p_x - glance.p_in_world, across);
+    let y = dot(glance.p_y - glance.p_in_world, across);
+    let width = max(per_m * length(vec2f(x, y)), 1e-5);
+    let s = per_m * (dot(glance.p_in_world, across) - looks[look].sheen.offset);
+    let first = looks[look].sheen.width;
+    let gap = looks[look].sheen.gap;
+    let second = looks[look].sheen.second;
+    let mean = saturate(first + second);
+    let detail = saturate(2.0 - 2.0 * width);
+    var covered = 0.0;
+    for (var i = -1; i <= 1; i++) {
+        let at = fract(s) + f32(i);
+        covered += part_inside(at, width, first) + part_inside(at - first - gap, width, second);
+    }
+    return mix(mean, saturate(covered), detail);
+}
+
+fn shone(shaded: Shaded, glance: Glance, color: vec4f) -> vec4f {
+    if (SPECULAR || RIM_LIGHT || SHEEN) {
+        let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
+        return with_shine(shaded.look, glance, color, shaded.key_reach, shown);
+    }
+    return color;
 }
 
 fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn specular_coverage(look: u32, glance: Glance) -> f32 {
+    let scale = looks[look].specular.scale;
+    let turn = looks[look].specular.turn;
+    let translate = looks[look].specular.translate;
+    let split = looks[look].specular.split;
+    let square = looks[look].specular.square;
+    let n = looks[look].specular.exponent;
+    let b = looks[look].specular.threshold;
+    let here = changed_half(glance.half, scale, turn, translate, split, square);
+    let front = smoothstep(0.0, 0.05, glance.facing);
+    if ((looks[look].specular.flags & SHINE_GRADIENT) != 0u) {
+        return front * gradient_highlight(pow(here, n), b, looks[look].specular.gradient);
+    }
+    let x = changed_half(glance.half_x, scale, turn, translate, split, square) - here;
+    let y = changed_half(glance.half_y, scale, turn, translate, split, square) - here;
+    let edge = pow(b, 1.0 / n);
+    return front * saturate((here - edge) / max(length(vec2f(x, y)), 1e-5) + 0.5);
 }
 
 fn spline_slopes(f: f32) -> vec4f {
@@ -943,8 +1161,39 @@ fn tone_color(look: u32, index: u32) -> RampColor {
     return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
 }
 
+fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
+    let softness = looks[look].tones[index].softness;
+    let weight = saturate((t - looks[look].tones[index].at) / max(max(softness, width), MIN_WIDTH) + 0.5);
+    return select(weight, weight * weight * (3.0 - 2.0 * weight), softness > width);
+}
+
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
+}
+
+fn under_ramp(look: u32, base: vec3f, t: f32, width: f32) -> vec3f {
+    if (PALETTE) {
+        if ((looks[look].flags & LOOK_SMOOTH_RAMP) == 0u) {
+            let first = tone_color(look, 0u);
+            var color = nearest_color(base * first.factor + first.added);
+            for (var i = 1u; i < looks[look].tone_count; i++) {
+                let weight = tone_weight(look, i, t, width);
+                if (weight > 0.0) {
+                    let tone = tone_color(look, i);
+                    color = mix(color, nearest_color(base * tone.factor + tone.added), weight);
+                }
+            }
+            return color;
+        }
+        let ramp = ramp_color(look, t, width);
+        return nearest_color(base * ramp.factor + ramp.added);
+    }
+    let ramp = ramp_color(look, t, width);
+    return base * ramp.factor + ramp.added;
+}
+
+fn unit(v: vec3f) -> vec3f {
+    return v * inverseSqrt(max(dot(v, v), 1e-12));
 }
 
 fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
@@ -987,11 +1236,35 @@ fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
     return vec4f(mix(color.rgb, line.rgb, strength), mix(color.a, 1.0, strength));
 }
 
+fn with_shine(look: u32, glance: Glance, below: vec4f, reach: f32, shown: f32) -> vec4f {
+    var color = below;
+    if (SHEEN) {
+        if (looks[look].sheen.color.a > 0.0) {
+            let coverage = shown * sheen_coverage(look, glance);
+            color = laid_over(color, looks[look].sheen.color, looks[look].sheen.flags, coverage);
+        }
+    }
+    if (SPECULAR) {
+        if (looks[look].specular.color.a > 0.0) {
+            let coverage = shown * reach * specular_coverage(look, glance);
+            color = laid_over(color, looks[look].specular.color, looks[look].specular.flags, coverage);
+        }
+    }
+    if (RIM_LIGHT) {
+        if (looks[look].rim_light.color.a > 0.0) {
+            let coverage = shown * rim_coverage(look, glance);
+            color = laid_over(color, looks[look].rim_light.color, looks[look].rim_light.flags, coverage);
+        }
+    }
+    return color;
+}
+
 @fragment
 fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let normal = facing_normal(in, front_facing);
     let eye = to_eye(frame, in.p_in_world);
     let coverage = highlight_coverage(in.p_in_world, normal, eye);
+    let glance = glance_of(in, front_facing);
     let shaded = shade(in, front_facing);
     var color = shaded.color;
     if (OUTPUT == OUTPUT_COORDINATES) {
@@ -1004,6 +1277,7 @@ fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) ->
     if (OUTPUT == OUTPUT_HIGHLIGHT) {
         color = vec4f(0.0);
     }
+    color = shone(shaded, glance, color);
     var lit = 1.0;
     if (HAS_MASK) {
         lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
@@ -1038,11 +1312,12 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let glance = glance_of(in, front_facing);
     let shaded = shade(in, front_facing);
     if (OUTPUT != OUTPUT_PICTURE) {
         return shaded.color;
     }
-    return with_rim(in, shaded, shaded.color);
+    return with_rim(in, shaded, shone(shaded, glance, shaded.color));
 }
 
 @vertex
@@ -1078,6 +1353,8 @@ fn paint_vertex(in: VertexInput) -> Surface {
 
 override BLENDS_NORMALS: bool = false;
 
+override DOTS: bool = false;
+
 override HAS_AXIS: bool = false;
 
 override HAS_MASK: bool = false;
@@ -1094,8 +1371,16 @@ override ON_PANORAMA: bool = false;
 
 override OUTPUT: u32 = 0u;
 
+override PALETTE: bool = false;
+
 override REPLACES: bool = false;
+
+override RIM_LIGHT: bool = false;
 
 override SHADOWS: bool = false;
 
 override SHARE_PROXY: bool = false;
+
+override SHEEN: bool = false;
+
+override SPECULAR: bool = false;

@@ -248,13 +248,15 @@ pub(crate) struct Frame {
     pub(crate) flags: u32,
     pub(crate) line_set_count: u32,
     pub(crate) line_method: u32,
-    pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
+    pub(crate) palette_count: u32,
+    pub(crate) dots_spacing: f32,
     pub(crate) line_sets: [LineSet; 4],
     pub(crate) detect: Detect,
+    pub(crate) dots_turns: [glam::Vec4; 2],
+    pub(crate) palette: [PaletteColor; 16],
 }
 const _: () = assert!(
-    std::mem::size_of::< Frame > () == 608, "size of Frame does not match WGSL"
+    std::mem::size_of::< Frame > () == 1152, "size of Frame does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, clip_from_world) == 0,
@@ -348,12 +350,12 @@ const _: () = assert!(
     "offset of Frame.line_method does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_0) == 248,
-    "offset of Frame.reserved_0 does not match WGSL"
+    std::mem::offset_of!(Frame, palette_count) == 248,
+    "offset of Frame.palette_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_1) == 252,
-    "offset of Frame.reserved_1 does not match WGSL"
+    std::mem::offset_of!(Frame, dots_spacing) == 252,
+    "offset of Frame.dots_spacing does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, line_sets) == 256,
@@ -362,6 +364,14 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Frame, detect) == 576,
     "offset of Frame.detect does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, dots_turns) == 608,
+    "offset of Frame.dots_turns does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, palette) == 640,
+    "offset of Frame.palette does not match WGSL"
 );
 pub(crate) const GLOW_LINES_THROUGH: u32 = 1u32;
 pub(crate) const GLOW_OVER: u32 = 2u32;
@@ -819,6 +829,9 @@ const _: () = assert!(
 pub(crate) struct Look {
     pub(crate) fixed_color: glam::Vec4,
     pub(crate) tones: [Tone; 8],
+    pub(crate) specular: Specular,
+    pub(crate) rim_light: RimLight,
+    pub(crate) sheen: Sheen,
     pub(crate) tone_count: u32,
     pub(crate) flags: u32,
     pub(crate) gain: f32,
@@ -833,7 +846,7 @@ pub(crate) struct Look {
     pub(crate) reserved_0: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Look > () == 320, "size of Look does not match WGSL"
+    std::mem::size_of::< Look > () == 496, "size of Look does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Look, fixed_color) == 0,
@@ -843,49 +856,60 @@ const _: () = assert!(
     std::mem::offset_of!(Look, tones) == 16, "offset of Look.tones does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, tone_count) == 272,
+    std::mem::offset_of!(Look, specular) == 272,
+    "offset of Look.specular does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, rim_light) == 352,
+    "offset of Look.rim_light does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, sheen) == 400, "offset of Look.sheen does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, tone_count) == 448,
     "offset of Look.tone_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, flags) == 276, "offset of Look.flags does not match WGSL"
+    std::mem::offset_of!(Look, flags) == 452, "offset of Look.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, gain) == 280, "offset of Look.gain does not match WGSL"
+    std::mem::offset_of!(Look, gain) == 456, "offset of Look.gain does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, shade_bias) == 284,
+    std::mem::offset_of!(Look, shade_bias) == 460,
     "offset of Look.shade_bias does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, ramp_row) == 288,
+    std::mem::offset_of!(Look, ramp_row) == 464,
     "offset of Look.ramp_row does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, line_id) == 292,
+    std::mem::offset_of!(Look, line_id) == 468,
     "offset of Look.line_id does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, line_width) == 296,
+    std::mem::offset_of!(Look, line_width) == 472,
     "offset of Look.line_width does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, rim_threshold) == 300,
+    std::mem::offset_of!(Look, rim_threshold) == 476,
     "offset of Look.rim_threshold does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, rim_softness) == 304,
+    std::mem::offset_of!(Look, rim_softness) == 480,
     "offset of Look.rim_softness does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, hull_width_m) == 308,
+    std::mem::offset_of!(Look, hull_width_m) == 484,
     "offset of Look.hull_width_m does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, shadow_tone) == 312,
+    std::mem::offset_of!(Look, shadow_tone) == 488,
     "offset of Look.shadow_tone does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_0) == 316,
+    std::mem::offset_of!(Look, reserved_0) == 492,
     "offset of Look.reserved_0 does not match WGSL"
 );
 pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
@@ -902,6 +926,24 @@ pub(crate) const PIECE_COVERED_B: u32 = 512u32;
 pub(crate) const PIECE_MEETS_A: u32 = 4096u32;
 pub(crate) const PIECE_MEETS_B: u32 = 8192u32;
 pub(crate) const PIECE_SEAM: u32 = 2048u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct PaletteColor {
+    pub(crate) color: glam::Vec4,
+    pub(crate) lab: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< PaletteColor > () == 32,
+    "size of PaletteColor does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(PaletteColor, color) == 0,
+    "offset of PaletteColor.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(PaletteColor, lab) == 16,
+    "offset of PaletteColor.lab does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Piece {
@@ -1086,6 +1128,48 @@ const _: () = assert!(
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct RimLight {
+    pub(crate) color: glam::Vec4,
+    pub(crate) direction: glam::Vec3,
+    pub(crate) threshold: f32,
+    pub(crate) softness: f32,
+    pub(crate) flags: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< RimLight > () == 48, "size of RimLight does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, color) == 0,
+    "offset of RimLight.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, direction) == 16,
+    "offset of RimLight.direction does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, threshold) == 28,
+    "offset of RimLight.threshold does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, softness) == 32,
+    "offset of RimLight.softness does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, flags) == 36,
+    "offset of RimLight.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, reserved_0) == 40,
+    "offset of RimLight.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, reserved_1) == 44,
+    "offset of RimLight.reserved_1 does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Rule {
     pub(crate) conditions: u32,
     pub(crate) id_tolerance: f32,
@@ -1140,6 +1224,9 @@ pub(crate) const SET_COLOR_BASE: u32 = 2u32;
 pub(crate) const SET_COLOR_LIGHT: u32 = 4u32;
 pub(crate) const SET_CURVES: u32 = 256u32;
 pub(crate) const SET_HIDDEN: u32 = 1u32;
+pub(crate) const SHINE_GRADIENT: u32 = 1u32;
+pub(crate) const SHINE_PAPER: u32 = 4u32;
+pub(crate) const SHINE_REPLACE: u32 = 2u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct ShadowMap {
@@ -1176,6 +1263,120 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(ShadowMap, is_perspective) == 140,
     "offset of ShadowMap.is_perspective does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Sheen {
+    pub(crate) color: glam::Vec4,
+    pub(crate) turn: glam::Vec2,
+    pub(crate) spacing: f32,
+    pub(crate) offset: f32,
+    pub(crate) width: f32,
+    pub(crate) second: f32,
+    pub(crate) gap: f32,
+    pub(crate) flags: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Sheen > () == 48, "size of Sheen does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, color) == 0, "offset of Sheen.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, turn) == 16, "offset of Sheen.turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, spacing) == 24,
+    "offset of Sheen.spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, offset) == 28,
+    "offset of Sheen.offset does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, width) == 32, "offset of Sheen.width does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, second) == 36,
+    "offset of Sheen.second does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, gap) == 40, "offset of Sheen.gap does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, flags) == 44, "offset of Sheen.flags does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Specular {
+    pub(crate) color: glam::Vec4,
+    pub(crate) translate: glam::Vec2,
+    pub(crate) scale: glam::Vec2,
+    pub(crate) split: glam::Vec2,
+    pub(crate) turn: glam::Vec2,
+    pub(crate) exponent: f32,
+    pub(crate) threshold: f32,
+    pub(crate) gradient: f32,
+    pub(crate) square: f32,
+    pub(crate) flags: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Specular > () == 80, "size of Specular does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, color) == 0,
+    "offset of Specular.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, translate) == 16,
+    "offset of Specular.translate does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, scale) == 24,
+    "offset of Specular.scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, split) == 32,
+    "offset of Specular.split does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, turn) == 40,
+    "offset of Specular.turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, exponent) == 48,
+    "offset of Specular.exponent does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, threshold) == 52,
+    "offset of Specular.threshold does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, gradient) == 56,
+    "offset of Specular.gradient does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, square) == 60,
+    "offset of Specular.square does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, flags) == 64,
+    "offset of Specular.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_0) == 68,
+    "offset of Specular.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_1) == 72,
+    "offset of Specular.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_2) == 76,
+    "offset of Specular.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -8,7 +8,7 @@ use crate::render::gpu::timing::Timer;
 use crate::render::{
     frame::Aim,
     layouts::Layouts,
-    prepare::{DrawItem, Prepared},
+    prepare::{DrawItem, Prepared, shine::Features},
     targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
@@ -76,6 +76,11 @@ impl PaintPass {
         let samples = paint_samples(targets.size.paint_scale);
         aim.set_viewport(&mut pass, targets.size.paint_scale as f32);
         let [opaque, blended] = sorted_items(prepared, aim.eye);
+        let features = Features::of(&prepared.style);
+        let features = match output {
+            PaintOutput::All | PaintOutput::Highlights => features,
+            _ => features.without_shine(),
+        };
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -87,7 +92,7 @@ impl PaintPass {
                 PaintOutput::Tone => 4,
                 PaintOutput::Shadow => 5,
             };
-            Variant { highlights, shadows, output, ..Variant::of(item, samples) }
+            Variant { highlights, shadows, output, features, ..Variant::of(item, samples) }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);

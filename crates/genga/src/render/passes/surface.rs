@@ -9,7 +9,9 @@ use std::{
 use crate::render::generated::WorldVertex;
 use crate::render::gpu::bindings::pipeline_layout;
 use crate::render::layouts::Layouts;
-use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes};
+use crate::render::prepare::{
+    DrawItem, Prepared, geometry::VertexAttributes, shine::Features,
+};
 use crate::render::targets::DEPTH_FORMAT;
 
 /// What differs between the pipelines of one pass.
@@ -29,6 +31,8 @@ pub(crate) struct Variant {
     pub(crate) shadows: bool,
     /// An `OUTPUT_*` of `paint.wesl`.
     pub(crate) output: u32,
+    /// Comic highlights and the print's colours.
+    pub(crate) features: Features,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -59,6 +63,7 @@ impl Variant {
             highlights: None,
             shadows: false,
             output: 0,
+            features: Features::default(),
         }
     }
 }
@@ -131,8 +136,13 @@ impl SurfacePipelines {
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
         let shading = [
-            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("SHADOWS", yes(variant.shadows)),
             ("OUTPUT", f64::from(variant.output)),
+            ("SPECULAR", yes(variant.features.specular)),
+            ("RIM_LIGHT", yes(variant.features.rim_light)),
+            ("SHEEN", yes(variant.features.sheen)),
+            ("PALETTE", yes(variant.features.palette)),
+            ("DOTS", yes(variant.features.dots)),
         ];
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),

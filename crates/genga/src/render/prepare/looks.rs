@@ -6,6 +6,7 @@ use std::{collections::HashMap, sync::Arc};
 
 use glam::{Vec3, Vec4};
 
+use super::shine;
 use crate::render::generated::{self as gpu, Look, Rule, Tone};
 use crate::scene::Image;
 use crate::srgb::linear_from_srgb;
@@ -145,6 +146,10 @@ impl<'a> Looks<'a> {
                 look.flags |= gpu::LOOK_BASE_FIXED;
                 look.fixed_color = Vec4::from(color.to_array());
             }
+            BaseColor::Paper => {
+                look.flags |= gpu::LOOK_BASE_FIXED;
+                look.fixed_color = Vec4::from(self.style.background.color.to_array());
+            }
         }
         if paint.ramp.smooth {
             look.flags |= gpu::LOOK_SMOOTH_RAMP;
@@ -158,6 +163,16 @@ impl<'a> Looks<'a> {
         look.tones[..tones.len()].copy_from_slice(&tones);
         look.gain = paint.ramp.gain;
         look.shade_bias = paint.shade_bias;
+        let paper = self.style.background.color;
+        if let Some(specular) = &paint.specular {
+            look.specular = shine::specular(specular, paper, blend);
+        }
+        if let Some(rim_light) = &paint.rim_light {
+            look.rim_light = shine::rim_light(rim_light, paper, blend);
+        }
+        if let Some(sheen) = &paint.sheen {
+            look.sheen = shine::sheen(sheen, paper, blend);
+        }
         look.shadow_tone = paint.shadow.tone;
         if !paint.shadow.receive {
             look.flags |= gpu::LOOK_UNSHADOWED;
@@ -227,6 +242,9 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     if let Some(bias) = o.paint.shade_bias {
         paint.shade_bias = bias;
     }
+    paint.specular = o.paint.specular.or(paint.specular);
+    paint.rim_light = o.paint.rim_light.or(paint.rim_light);
+    paint.sheen = o.paint.sheen.or(paint.sheen);
     if let Some(tone) = o.paint.shadow.tone {
         paint.shadow.tone = tone;
     }

@@ -6,6 +6,7 @@ pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
 pub(crate) mod shadows;
+pub(crate) mod shine;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
