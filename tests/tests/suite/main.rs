@@ -16,6 +16,7 @@ mod repeat;
 mod selectors;
 mod shaders;
 mod shadows;
+mod shine;
 mod snapshots;
 mod transparency;
 mod waves;

@@ -573,7 +573,7 @@ fn glance_at(p_in_world: vec3f, normal: vec3f, to_eye: vec3f, to_light: vec3f) -
 
 fn glance_of(in: Surface, front_facing: bool) -> Glance {
     var glance: Glance;
-    if (SPECULAR || RIM_LIGHT || SHEEN) {
+    if (SPECULAR | RIM_LIGHT | SHEEN) {
         let normal = facing_normal(in, front_facing);
         let to_light = light_term(lights[0], in.p_in_world, normal).to_light;
         glance = glance_at(in.p_in_world, normal, to_eye(frame, in.p_in_world), to_light);
@@ -1100,7 +1100,7 @@ fn sheen_coverage(look: u32, glance: Glance) -> f32 {
 }
 
 fn shone(shaded: Shaded, glance: Glance, color: vec4f) -> vec4f {
-    if (SPECULAR || RIM_LIGHT || SHEEN) {
+    if (SPECULAR | RIM_LIGHT | SHEEN) {
         let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
         return with_shine(shaded.look, glance, color, shaded.key_reach, shown);
     }

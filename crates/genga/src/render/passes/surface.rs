@@ -9,9 +9,7 @@ use std::{
 use crate::render::generated::WorldVertex;
 use crate::render::gpu::bindings::pipeline_layout;
 use crate::render::layouts::Layouts;
-use crate::render::prepare::{
-    DrawItem, Prepared, geometry::VertexAttributes, shine::Features,
-};
+use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes, shine::Features};
 use crate::render::targets::DEPTH_FORMAT;
 
 /// What differs between the pipelines of one pass.
