@@ -15,6 +15,7 @@ mod ramp;
 mod repeat;
 mod selectors;
 mod shaders;
+mod shading;
 mod shadows;
 mod shine;
 mod snapshots;

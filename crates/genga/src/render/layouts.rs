@@ -51,6 +51,7 @@ impl Layouts {
                     (6, B::Uniform),
                     (7, B::DepthLayers),
                     (8, B::NearestSampler),
+                    (9, B::Uniform),
                 ],
             ),
             material: layout(
@@ -63,6 +64,8 @@ impl Layouts {
                     (2, B::Filtered),
                     (3, B::Sampler),
                     (4, B::Float),
+                    (5, B::Filtered),
+                    (6, B::Sampler),
                 ],
             ),
             highlights: layout(

@@ -321,6 +321,7 @@ impl Renderer {
         let tiles = [tile, viewport(&self.device, view, tile)];
         let frame = frame_values(prepared, view, projected, tiles, output, lights.len() as u32);
         prepared.highlights.write(&self.queue, prepared, view, &lights);
+        prepared.shadings.write(&self.queue, &lights);
         let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
         self.queue.write_buffer(&prepared.frame, 0, bytemuck::bytes_of(&frame));

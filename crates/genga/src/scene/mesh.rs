@@ -35,6 +35,9 @@ pub struct Primitive {
     /// `_LINE_ID`: user line id, 0 to 65535; a triangle has the one that most of its corners have.
     /// Empty for 0.
     pub line_ids: Vec<u32>,
+    /// `_SHADE_BIAS`: added to the ramp coordinate T, in [−1, 1]; empty for 0. A file's
+    /// `_SHADE_THRESHOLD`, where T has its terminator instead of at 0.5, is in it.
+    pub shade_biases: Vec<f32>,
     /// Triangles: three indices each, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Index into [`super::Scene::materials`]; `None` for the default material.

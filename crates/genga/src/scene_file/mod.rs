@@ -33,6 +33,7 @@ mod highlight_tests;
 mod light;
 mod merge;
 mod model;
+mod shading;
 #[cfg(test)]
 mod tests;
 mod wave;
@@ -48,4 +49,5 @@ pub use highlight::{
 };
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};
+pub use shading::ShadingEntry;
 pub use wave::{NodeNames, WaveEntry, WaveReference};

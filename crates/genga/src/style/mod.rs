@@ -29,6 +29,7 @@ mod overrides;
 mod paint;
 pub(crate) mod picture;
 mod presets;
+mod shade_map;
 mod shadow;
 mod shine;
 #[cfg(test)]
@@ -49,6 +50,7 @@ pub use overrides::{
 pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
+pub use shade_map::{ShadeMap, ShadeSource};
 pub use shadow::{Shadow, ShadowOverride};
 pub use shine::{Dots, RimLight, Sheen, ShineBlend, Specular, SpecularForm};
 pub use widths::{Curve, WidthBy, Wobble};

@@ -4,7 +4,9 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::{BaseColor, Color, Globs, Ramp, RimLight, ShadowOverride, Sheen, Specular, picture};
+use super::{
+    BaseColor, Color, Globs, Ramp, RimLight, ShadeMap, ShadowOverride, Sheen, Specular, picture,
+};
 use crate::scene::Image;
 
 /// What differs for a part of the scene.
@@ -116,6 +118,8 @@ pub struct PaintOverride {
     /// Instead of the style's `paint.shade_bias`.
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: Option<f32>,
+    /// Instead of the style's `paint.shade_map`; a strength of 0 is none.
+    pub shade_map: Option<ShadeMap>,
     /// Cast shadows.
     pub shadow: ShadowOverride,
     /// Instead of the style's `paint.specular`; a strength of 0 is none.

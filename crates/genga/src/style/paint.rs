@@ -4,7 +4,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Color, Dots, RimLight, Shadow, Sheen, Specular, picture};
+use super::{Color, Dots, RimLight, ShadeMap, Shadow, Sheen, Specular, picture};
 use crate::scene::Image;
 use crate::toml_file::list_with;
 
@@ -75,6 +75,8 @@ pub struct Paint {
     /// Added to the ramp coordinate T: positive keeps a surface lighter. In [−1, 1].
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: f32,
+    /// Shade bias by vertex or texel; none by default.
+    pub shade_map: Option<ShadeMap>,
     /// Cast shadows.
     pub shadow: Shadow,
     /// A comic highlight; none by default.
@@ -97,6 +99,7 @@ impl Default for Paint {
             blend_space: BlendSpace::Display,
             ramp: Ramp::default(),
             shade_bias: 0.0,
+            shade_map: None,
             shadow: Shadow::default(),
             specular: None,
             rim_light: None,

@@ -109,6 +109,7 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
         colors: attributes.colors()?,
         line_widths: attributes.line_widths()?,
         line_ids: attributes.line_ids()?,
+        shade_biases: attributes.shade_biases()?,
         joints,
         weights,
         positions,
@@ -223,6 +224,7 @@ fn remove_unused_vertices(primitive: &mut Primitive) {
     retain(&mut primitive.weights, &used);
     retain(&mut primitive.line_widths, &used);
     retain(&mut primitive.line_ids, &used);
+    retain(&mut primitive.shade_biases, &used);
     for target in &mut primitive.morph_targets {
         retain(&mut target.positions, &used);
         retain(&mut target.normals, &used);

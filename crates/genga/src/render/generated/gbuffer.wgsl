@@ -64,7 +64,11 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    shading: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Frame {
@@ -142,7 +146,11 @@ struct Look {
     rim_softness: f32,
     hull_width_m: f32,
     shadow_tone: f32,
-    reserved_0: u32
+    shade_strength: f32,
+    shade_source: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct MaterialSample {
@@ -222,11 +230,13 @@ struct Surface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
-    line_id: u32
+    line_id: u32,
+    @location(9) @interpolate(flat)
+    face: vec4f
 }
 
 struct Tone {
@@ -371,7 +381,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
@@ -403,7 +413,7 @@ fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> G
     let normal = facing_normal(in, front_facing);
     let line_id = select(in.line_id, looks[material.look].line_id, in.line_id == 0u);
     let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (line_id << 16u));
-    let width = select(0.0, looks[material.look].line_width, in.line_width > 0.0);
+    let width = select(0.0, looks[material.look].line_width, in.marks.x > 0.0);
     var base = material.base;
     if ((looks[material.look].flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[material.look].fixed_color.rgb;

@@ -27,6 +27,9 @@ var shadow_depths: texture_depth_2d_array;
 @group(0) @binding(8)
 var nearest: sampler;
 
+@group(0) @binding(9)
+var<uniform> shadings: array<Shading, 16>;
+
 @group(1) @binding(0)
 var base_color_texture: texture_2d<f32>;
 
@@ -41,6 +44,12 @@ var emissive_sampler: sampler;
 
 @group(1) @binding(4)
 var id_texture: texture_2d<f32>;
+
+@group(1) @binding(5)
+var shade_picture: texture_2d<f32>;
+
+@group(1) @binding(6)
+var shade_sampler: sampler;
 
 @group(2) @binding(0)
 var<uniform> highlights: HighlightBlock;
@@ -136,6 +145,10 @@ const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
 
+const SHADE_FROM_NOTHING: u32 = 4u;
+
+const SHADE_FROM_PICTURE: u32 = 5u;
+
 const SHINE_GRADIENT: u32 = 1u;
 
 const SHINE_PAPER: u32 = 4u;
@@ -169,7 +182,11 @@ struct Draw {
     rule_count: u32,
     flags: u32,
     alpha_cutoff: f32,
-    line_width: f32
+    line_width: f32,
+    shading: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Footing {
@@ -311,7 +328,11 @@ struct Look {
     rim_softness: f32,
     hull_width_m: f32,
     shadow_tone: f32,
-    reserved_0: u32
+    shade_strength: f32,
+    shade_source: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct MaterialSample {
@@ -372,6 +393,17 @@ struct Shaded {
     rim_width: f32
 }
 
+struct Shading {
+    center: vec3f,
+    amount: f32,
+    axis: vec3f,
+    axis_length: f32,
+    normals_x: vec4f,
+    normals_y: vec4f,
+    normals_z: vec4f,
+    face: vec4f
+}
+
 struct ShadowMap {
     clip_from_world: mat4x4f,
     clip_from_plane: mat4x4f,
@@ -424,11 +456,13 @@ struct Surface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
-    line_id: u32
+    line_id: u32,
+    @location(9) @interpolate(flat)
+    face: vec4f
 }
 
 struct Tone {
@@ -972,6 +1006,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
     var terms: array<vec2f, 16>;
+    let first_term = light_term(lights[0], in.p_in_world, normal).term;
     if (SHADOWS) {
         let receiver = receiver_at(in.p_in_world, normal);
         for (var i = 0u; i < frame.light_count; i++) {
@@ -985,7 +1020,19 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
         }
     }
+    var picture = 0.5;
+    if (EDITED_SHADING | SHADE_PICTURES) {
+        let is_mirrored = in.face.w > 0.0 && in.face.y >= 0.0 && in.face.z > 0.0;
+        let u = select(in.id_uv.x, 2.0 * in.face.y - in.id_uv.x, is_mirrored);
+        picture = textureSampleLevel(shade_picture, shade_sampler, vec2f(u, in.id_uv.y), 0.0).r;
+        if (in.face.w > 0.0) {
+            let term = clamp(2.0 * (picture - in.face.x), -1.0, 1.0);
+            sum += lights[0].factors.x * (term - first_term);
+            terms[0].x = term;
+        }
+    }
     let sum_width = fwidth(sum);
+    let picture_width = fwidth(picture);
     var rim = 0.0;
     var rim_width = 0.0;
     if (frame.line_method == METHOD_RIM) {
@@ -996,9 +1043,19 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         discard;
     }
     let gain = looks[look_index].gain;
-    let bias = looks[look_index].shade_bias;
+    var bias = looks[look_index].shade_bias + in.marks.y;
+    var free_width = 0.5 * gain * sum_width;
+    let source = looks[look_index].shade_source;
+    if (source != SHADE_FROM_NOTHING) {
+        var shade = picture;
+        if (source != SHADE_FROM_PICTURE) {
+            shade = select(select(in.color.x, in.color.y, source == 1u), select(in.color.z, in.color.w, source == 3u), source >= 2u);
+        }
+        let strength = looks[look_index].shade_strength;
+        bias += strength * (2.0 * shade - 1.0);
+        free_width += select(0.0, 2.0 * abs(strength) * picture_width, source == SHADE_FROM_PICTURE);
+    }
     let t_free = ramp_coordinate(sum, gain, bias);
-    let free_width = 0.5 * gain * sum_width;
     var t = t_free;
     var t_width = free_width;
     var t_lit = t_free;
@@ -1078,6 +1135,16 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, key_reach, rim, rim_width);
 }
 
+fn shading_normal(shading: u32, p_in_world: vec3f, normal: vec3f) -> vec3f {
+    let from_center = p_in_world - shadings[shading].center;
+    let axis = shadings[shading].axis;
+    let along = clamp(dot(from_center, axis), 0.0, shadings[shading].axis_length);
+    let q = vec4f(from_center - axis * along, 1.0);
+    let n = vec3f(dot(shadings[shading].normals_x, q), dot(shadings[shading].normals_y, q), dot(shadings[shading].normals_z, q));
+    let unit = n * inverseSqrt(max(dot(n, n), 1e-30));
+    return mix(normal, unit, shadings[shading].amount);
+}
+
 fn sheen_coverage(look: u32, glance: Glance) -> f32 {
     let turn = looks[look].sheen.turn;
     let across = turn.x * frame.camera_right.xyz - turn.y * frame.camera_up.xyz;
@@ -1143,7 +1210,7 @@ fn spline_weights(f: f32) -> vec4f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
 }
 
 fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
@@ -1348,12 +1415,22 @@ fn hull_vertex(in: VertexInput) -> Hull {
 
 @vertex
 fn paint_vertex(in: VertexInput) -> Surface {
-    return surface_from_vertex(in, frame.paint_scale);
+    var surface = surface_from_vertex(in, frame.paint_scale);
+    if (EDITED_SHADING) {
+        let number = draws[in.draw].shading;
+        if (number > 0u) {
+            surface.normal = shading_normal(number - 1u, in.p_in_world, surface.normal);
+            surface.face = shadings[number - 1u].face;
+        }
+    }
+    return surface;
 }
 
 override BLENDS_NORMALS: bool = false;
 
 override DOTS: bool = false;
+
+override EDITED_SHADING: bool = false;
 
 override HAS_AXIS: bool = false;
 
@@ -1376,6 +1453,8 @@ override PALETTE: bool = false;
 override REPLACES: bool = false;
 
 override RIM_LIGHT: bool = false;
+
+override SHADE_PICTURES: bool = false;
 
 override SHADOWS: bool = false;
 

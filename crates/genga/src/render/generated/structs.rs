@@ -131,9 +131,13 @@ pub(crate) struct Draw {
     pub(crate) flags: u32,
     pub(crate) alpha_cutoff: f32,
     pub(crate) line_width: f32,
+    pub(crate) shading: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Draw > () == 128, "size of Draw does not match WGSL"
+    std::mem::size_of::< Draw > () == 144, "size of Draw does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Draw, base_color) == 0,
@@ -189,6 +193,22 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Draw, line_width) == 124,
     "offset of Draw.line_width does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, shading) == 128,
+    "offset of Draw.shading does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_0) == 132,
+    "offset of Draw.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_1) == 136,
+    "offset of Draw.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_2) == 140,
+    "offset of Draw.reserved_2 does not match WGSL"
 );
 pub(crate) const EDGE_FLAT: u32 = 268435456u32;
 pub(crate) const EDGE_HARD: u32 = 1073741824u32;
@@ -843,10 +863,14 @@ pub(crate) struct Look {
     pub(crate) rim_softness: f32,
     pub(crate) hull_width_m: f32,
     pub(crate) shadow_tone: f32,
+    pub(crate) shade_strength: f32,
+    pub(crate) shade_source: u32,
     pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Look > () == 496, "size of Look does not match WGSL"
+    std::mem::size_of::< Look > () == 512, "size of Look does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Look, fixed_color) == 0,
@@ -909,8 +933,24 @@ const _: () = assert!(
     "offset of Look.shadow_tone does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_0) == 492,
+    std::mem::offset_of!(Look, shade_strength) == 492,
+    "offset of Look.shade_strength does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, shade_source) == 496,
+    "offset of Look.shade_source does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_0) == 500,
     "offset of Look.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_1) == 504,
+    "offset of Look.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_2) == 508,
+    "offset of Look.reserved_2 does not match WGSL"
 );
 pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
 pub(crate) const MASK_SILHOUETTE_SHIFT: u32 = 8u32;
@@ -1224,9 +1264,58 @@ pub(crate) const SET_COLOR_BASE: u32 = 2u32;
 pub(crate) const SET_COLOR_LIGHT: u32 = 4u32;
 pub(crate) const SET_CURVES: u32 = 256u32;
 pub(crate) const SET_HIDDEN: u32 = 1u32;
+pub(crate) const SHADE_FROM_NOTHING: u32 = 4u32;
+pub(crate) const SHADE_FROM_PICTURE: u32 = 5u32;
 pub(crate) const SHINE_GRADIENT: u32 = 1u32;
 pub(crate) const SHINE_PAPER: u32 = 4u32;
 pub(crate) const SHINE_REPLACE: u32 = 2u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Shading {
+    pub(crate) center: glam::Vec3,
+    pub(crate) amount: f32,
+    pub(crate) axis: glam::Vec3,
+    pub(crate) axis_length: f32,
+    pub(crate) normals_x: glam::Vec4,
+    pub(crate) normals_y: glam::Vec4,
+    pub(crate) normals_z: glam::Vec4,
+    pub(crate) face: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< Shading > () == 96, "size of Shading does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, center) == 0,
+    "offset of Shading.center does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, amount) == 12,
+    "offset of Shading.amount does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, axis) == 16,
+    "offset of Shading.axis does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, axis_length) == 28,
+    "offset of Shading.axis_length does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_x) == 32,
+    "offset of Shading.normals_x does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_y) == 48,
+    "offset of Shading.normals_y does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_z) == 64,
+    "offset of Shading.normals_z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, face) == 80,
+    "offset of Shading.face does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct ShadowMap {

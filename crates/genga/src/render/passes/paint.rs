@@ -92,7 +92,15 @@ impl PaintPass {
                 PaintOutput::Tone => 4,
                 PaintOutput::Shadow => 5,
             };
-            Variant { highlights, shadows, output, features, ..Variant::of(item, samples) }
+            let edited_shading = prepared.shadings.any();
+            Variant {
+                highlights,
+                shadows,
+                output,
+                features,
+                edited_shading,
+                ..Variant::of(item, samples)
+            }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);

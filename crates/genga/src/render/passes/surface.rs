@@ -31,6 +31,8 @@ pub(crate) struct Variant {
     pub(crate) output: u32,
     /// Comic highlights and the print's colours.
     pub(crate) features: Features,
+    /// With other normals for shading.
+    pub(crate) edited_shading: bool,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -62,6 +64,7 @@ impl Variant {
             shadows: false,
             output: 0,
             features: Features::default(),
+            edited_shading: false,
         }
     }
 }
@@ -141,6 +144,8 @@ impl SurfacePipelines {
             ("SHEEN", yes(variant.features.sheen)),
             ("PALETTE", yes(variant.features.palette)),
             ("DOTS", yes(variant.features.dots)),
+            ("SHADE_PICTURES", yes(variant.features.shade_pictures)),
+            ("EDITED_SHADING", yes(variant.edited_shading)),
         ];
         let constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
@@ -164,7 +169,14 @@ impl SurfacePipelines {
             vertex: wgpu::VertexState {
                 module: &self.module,
                 entry_point: Some(self.vertex_entry),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: if variant.edited_shading {
+                        &[("EDITED_SHADING", 1.0)]
+                    } else {
+                        &[]
+                    },
+                    ..Default::default()
+                },
                 buffers: &[
                     wgpu::VertexBufferLayout {
                         array_stride: size_of::<WorldVertex>() as u64,

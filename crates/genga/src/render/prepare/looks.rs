@@ -10,7 +10,9 @@ use super::shine;
 use crate::render::generated::{self as gpu, Look, Rule, Tone};
 use crate::scene::Image;
 use crate::srgb::linear_from_srgb;
-use crate::style::{BaseColor, BlendSpace, Color, Lines, Override, Paint, Ramp, Style, ToneBlend};
+use crate::style::{
+    BaseColor, BlendSpace, Color, Lines, Override, Paint, Ramp, ShadeSource, Style, ToneBlend,
+};
 
 /// Most per-pixel selectors that can apply to one object and material: each doubles its looks.
 pub(crate) const MAX_RULES: usize = 6;
@@ -25,6 +27,8 @@ pub(crate) struct LookRange {
     pub(crate) rule_count: u32,
     /// Whether it casts shadows.
     pub(crate) casts_shadow: bool,
+    /// Picture of the shade map.
+    pub(crate) shade_image: Option<Arc<Image>>,
     /// Picture of the id-texture selectors, if there are any.
     pub(crate) id_image: Option<Arc<Image>>,
 }
@@ -126,12 +130,17 @@ impl<'a> Looks<'a> {
             self.looks.push(look);
         }
         let by_name = overrides.iter().filter(|o| !o.select.is_per_pixel());
+        // One picture a surface: that of the last override by name, or the style's.
+        let maps = by_name.clone().filter_map(|o| o.paint.shade_map.as_ref());
+        let map = maps.last().or(style.paint.shade_map.as_ref());
+        let shade_image = map.and_then(|map| map.image.clone());
         let casts_shadow = by_name.filter_map(|o| o.paint.shadow.cast).next_back().unwrap_or(true);
         LookRange {
             look_first,
             rule_first,
             rule_count: per_pixel.len() as u32,
             casts_shadow,
+            shade_image,
             id_image,
         }
     }
@@ -163,6 +172,18 @@ impl<'a> Looks<'a> {
         look.tones[..tones.len()].copy_from_slice(&tones);
         look.gain = paint.ramp.gain;
         look.shade_bias = paint.shade_bias;
+        look.shade_source = gpu::SHADE_FROM_NOTHING;
+        if let Some(map) = &paint.shade_map {
+            look.shade_strength = map.strength;
+            look.shade_source = match map.from {
+                ShadeSource::VertexRed => 0,
+                ShadeSource::VertexGreen => 1,
+                ShadeSource::VertexBlue => 2,
+                ShadeSource::VertexAlpha => 3,
+                ShadeSource::Picture if map.image.is_some() => gpu::SHADE_FROM_PICTURE,
+                ShadeSource::Picture => gpu::SHADE_FROM_NOTHING,
+            };
+        }
         let paper = self.style.background.color;
         if let Some(specular) = &paint.specular {
             look.specular = shine::specular(specular, paper, blend);
@@ -241,6 +262,9 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     }
     if let Some(bias) = o.paint.shade_bias {
         paint.shade_bias = bias;
+    }
+    if let Some(map) = &o.paint.shade_map {
+        paint.shade_map = Some(map.clone());
     }
     paint.specular = o.paint.specular.or(paint.specular);
     paint.rim_light = o.paint.rim_light.or(paint.rim_light);

@@ -5,6 +5,7 @@ pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
+pub(crate) mod shading;
 pub(crate) mod shadows;
 pub(crate) mod shine;
 pub(crate) mod strokes;
@@ -22,6 +23,7 @@ use self::{
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
+    shading::{Shadings, shading_of},
     shadows::Shadows,
     strokes::StrokeData,
     textures::Textures,
@@ -33,7 +35,7 @@ use super::{
     gpu::{bindings, scope},
     layouts::Layouts,
 };
-use crate::scene::{Aabb, AlphaMode, Material, Pose, Scene, TextureRef};
+use crate::scene::{Aabb, AlphaMode, Image, Material, Pose, Scene, TextureRef};
 use crate::style::{self, LineSet, Style};
 
 /// A scene under a style, ready to be drawn in any view.
@@ -49,6 +51,7 @@ pub struct Prepared {
     pub(crate) surface_group: wgpu::BindGroup,
     pub(crate) lights: Vec<PlacedLight>,
     pub(crate) shadows: Shadows,
+    pub(crate) shadings: Shadings,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
@@ -192,6 +195,7 @@ impl Prepared {
             *place = pose.world_from_node[*node].translation.into();
         }
         self.highlights.set_pose(pose);
+        self.shadings.set_pose(pose);
         self.bounds = scene.bounds(pose);
     }
 }
@@ -209,7 +213,8 @@ struct Builder<'a> {
     /// By mesh, then by primitive.
     chunks: HashMap<usize, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
-    material_of: HashMap<(Option<usize>, Option<usize>), usize>,
+    material_of: HashMap<(Option<usize>, Option<usize>, Option<usize>), usize>,
+    shade_sampler: wgpu::Sampler,
     draws: Vec<DrawItem>,
     draw_values: Vec<Draw>,
     deforms: Vec<(Deform, [usize; 3])>,
@@ -240,6 +245,14 @@ impl<'a> Builder<'a> {
             chunks: HashMap::new(),
             materials: Vec::new(),
             material_of: HashMap::new(),
+            shade_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("shade"),
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
             draws: Vec::new(),
             draw_values: Vec::new(),
             deforms: Vec::new(),
@@ -297,7 +310,8 @@ impl<'a> Builder<'a> {
             let matrix_first = deform.matrix_first + if is_skinned { 0 } else { joint_count };
             let chunks = chunks_of[p].clone();
             let look = self.looks.range(&node.name, &material.name);
-            let group = self.material_group(primitive.material, material, &look);
+            let shading = shading_of(scene, index, &node.name, &material.name);
+            let group = self.material_group(primitive.material, material, &look, shading);
             let highlights = self.highlights.of(index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
@@ -314,8 +328,9 @@ impl<'a> Builder<'a> {
                     },
                     [chunk.rest.page, world.page, chunk.morph.page],
                 ));
-                let values =
+                let mut values =
                     self.draw_values(index, primitive.material, &node.name, material, &look);
+                values.shading = shading.map_or(0, |shading| shading as u32 + 1);
                 self.draw_values.push(values);
                 self.draws.push(DrawItem {
                     world,
@@ -382,6 +397,10 @@ impl<'a> Builder<'a> {
             } else {
                 -1.0
             },
+            shading: 0,
+            reserved_0: 0,
+            reserved_1: 0,
+            reserved_2: 0,
         }
     }
 
@@ -390,14 +409,18 @@ impl<'a> Builder<'a> {
         index: Option<usize>,
         material: &Material,
         look: &LookRange,
+        shading: Option<usize>,
     ) -> usize {
-        let key = (index, look.id_image.as_ref().map(|image| Arc::as_ptr(image) as usize));
+        let shade = Shadings::picture(self.scene, shading).or(look.shade_image.as_ref());
+        let pointer = |image: Option<&Arc<Image>>| image.map(|image| Arc::as_ptr(image) as usize);
+        let key = (index, pointer(look.id_image.as_ref()), pointer(shade));
         if let Some(&group) = self.material_of.get(&key) {
             return group;
         }
         let (base, base_sampler) = self.textures.get(material.base_color_texture);
         let (emissive, emissive_sampler) = self.textures.get(material.emissive_texture);
         let id = self.textures.style_image(look.id_image.as_ref());
+        let shade = self.textures.style_image(shade);
         use wgpu::BindingResource as R;
         let group = bindings::group(
             self.device,
@@ -409,6 +432,8 @@ impl<'a> Builder<'a> {
                 (2, R::TextureView(&emissive)),
                 (3, R::Sampler(&emissive_sampler)),
                 (4, R::TextureView(&id)),
+                (5, R::TextureView(&shade)),
+                (6, R::Sampler(&self.shade_sampler)),
             ],
         );
         self.materials.push(group);
@@ -451,6 +476,7 @@ impl<'a> Builder<'a> {
         let wanted = shadows::maps_needed(self.scene, pose, self.style);
         let resolution = self.style.paint.shadow.resolution;
         let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
+        let shadings = Shadings::new(device, queue, self.scene);
         let surface_group = bindings::group(
             device,
             "surfaces",
@@ -465,6 +491,7 @@ impl<'a> Builder<'a> {
                 (6, shadows.values.as_entire_binding()),
                 (7, wgpu::BindingResource::TextureView(&shadows.depths)),
                 (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
+                (9, shadings.values.as_entire_binding()),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -486,6 +513,16 @@ impl<'a> Builder<'a> {
                  than {}: the weaker lights cast no shadows",
                 shadows::MAX_MAPS
             ));
+        }
+        for (i, shading) in self.scene.shadings.iter().enumerate() {
+            let number = i as u32 + 1;
+            if !self.draw_values.iter().any(|draw| draw.shading == number) {
+                let what = if shading.face_shadow.is_some() { "face shadow" } else { "proxy" };
+                warnings.push(format!(
+                    "shading {i} ({what}) lies on no surface: no object and material has such names, or \
+                     a later one has them all"
+                ));
+            }
         }
         let curves = |set: &LineSet| -> f32 {
             strokes::curves(set).into_iter().flatten().map(style::Curve::largest).product()
@@ -519,6 +556,7 @@ impl<'a> Builder<'a> {
             surface_group,
             lights,
             shadows,
+            shadings,
             deform,
             strokes,
             highlights,

@@ -17,6 +17,7 @@ pub(crate) struct Features {
     pub(crate) sheen: bool,
     pub(crate) palette: bool,
     pub(crate) dots: bool,
+    pub(crate) shade_pictures: bool,
 }
 
 impl Features {
@@ -29,6 +30,7 @@ impl Features {
             sheen: paint.sheen.is_some() || overrides().any(|o| o.sheen.is_some()),
             palette: !paint.palette.is_empty(),
             dots: paint.dots.is_some(),
+            shade_pictures: paint.shade_map.is_some() || overrides().any(|o| o.shade_map.is_some()),
         }
     }
 
