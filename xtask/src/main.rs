@@ -35,8 +35,11 @@ enum Task {
     /// Draw the small pictures of assets/gallery again
     Gallery {
         /// Only the sheets of highlights
-        #[arg(long)]
+        #[arg(long, conflicts_with = "light")]
         highlights: bool,
+        /// Only the sheets of light, ramps and comic highlights
+        #[arg(long)]
+        light: bool,
     },
     /// List test pictures that differ from the expected ones
     Snapshots {
@@ -89,7 +92,9 @@ fn run(task: Task) -> Result<()> {
     match task {
         Task::Demo => gallery::demo(root),
         Task::Test => check::test(root),
-        Task::Gallery { highlights } => gallery::gallery(root, highlights),
+        Task::Gallery { highlights: true, .. } => gallery::highlights(root),
+        Task::Gallery { light: true, .. } => gallery::light(root),
+        Task::Gallery { .. } => gallery::gallery(root),
         Task::Snapshots { update } => snapshots::snapshots(root, update),
         Task::Verify => {
             let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];

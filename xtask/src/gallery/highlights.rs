@@ -8,18 +8,18 @@ use std::process::Command;
 use crate::{Error, Result, process};
 
 /// One picture of a sheet: a scene file's text, and options of `genga render`.
-struct Cell {
-    scene: String,
-    options: Vec<String>,
+pub(super) struct Cell {
+    pub(super) scene: String,
+    pub(super) options: Vec<String>,
 }
 
 /// Rows of equal cells.
-struct Sheet {
-    name: &'static str,
+pub(super) struct Sheet {
+    pub(super) name: &'static str,
     /// Width and height of a cell in pixels.
-    cell: [u32; 2],
-    columns: usize,
-    cells: Vec<Cell>,
+    pub(super) cell: [u32; 2],
+    pub(super) columns: usize,
+    pub(super) cells: Vec<Cell>,
 }
 
 /// Draws all sheets into the folder.
@@ -34,16 +34,23 @@ pub(super) fn sheets(root: &Path, folder: &Path) -> Result<()> {
     let all = [views(&head)?, between(&head)?, proxies(&head)?, drawings(&head)?, body(&hero)];
     // Beside the scenes, since their paths begin there.
     let part = scenes.join(".sheet.scene.toml");
-    let drawn = all.iter().try_for_each(|sheet| draw(&genga, sheet, &part, folder));
+    let drawn = all.iter().try_for_each(|sheet| draw(&genga, sheet, "highlights", &part, folder));
     let removed = fs::remove_file(&part).map_err(Error::io("cannot remove", &part));
     drawn.and(removed)
 }
 
-fn draw(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<()> {
+/// Draws a sheet as `GROUP-NAME.png`.
+pub(super) fn draw(
+    genga: &Path,
+    sheet: &Sheet,
+    group: &str,
+    part: &Path,
+    folder: &Path,
+) -> Result<()> {
     let [width, height] = sheet.cell;
     let rows = sheet.cells.len().div_ceil(sheet.columns);
     let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);
-    let file: PathBuf = folder.join(format!("highlights-{}.png", sheet.name));
+    let file: PathBuf = folder.join(format!("{group}-{}.png", sheet.name));
     for (i, cell) in sheet.cells.iter().enumerate() {
         fs::write(part, &cell.scene).map_err(Error::io("cannot write", part))?;
         let mut render = Command::new(genga);

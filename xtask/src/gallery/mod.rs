@@ -1,6 +1,7 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
 mod highlights;
+mod light;
 mod lines;
 mod waves;
 
@@ -23,17 +24,25 @@ pub(crate) fn demo(root: &Path) -> Result<()> {
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed.
-pub(crate) fn gallery(root: &Path, only_highlights: bool) -> Result<()> {
+pub(crate) fn gallery(root: &Path) -> Result<()> {
     let folder = root.join("assets/gallery");
-    if only_highlights {
-        return highlights::sheets(root, &folder);
-    }
     let pictures = draw(root, &folder, "480x270")?;
     lines::draw(root, &folder)?;
     let genga = process::build(root, &["--release", "--package", "genga-cli"], "genga")?;
     waves::draw(root, &genga)?;
     println!("\n{} pictures and the sheets of lines are in {}", pictures.len(), folder.display());
+    light::sheets(root, &folder)?;
     highlights::sheets(root, &folder)
+}
+
+/// The sheets of highlights alone.
+pub(crate) fn highlights(root: &Path) -> Result<()> {
+    highlights::sheets(root, &root.join("assets/gallery"))
+}
+
+/// The sheets of light alone.
+pub(crate) fn light(root: &Path) -> Result<()> {
+    light::sheets(root, &root.join("assets/gallery"))
 }
 
 /// A drawn picture.

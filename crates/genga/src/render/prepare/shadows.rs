@@ -157,11 +157,10 @@ impl Shadows {
     }
 }
 
-/// Texels of a map of all that is in view. Between one and two pixels' worth of texels are smoothed
-/// to an edge, so texels much smaller than pixels would leave it jagged.
+/// Texels of a map of all that is in view: a quarter of a pixel is the least that shows.
 fn used_texels(view: &View) -> u32 {
     let longest = view.size[0].max(view.size[1]).max(1) * view.supersample.max(1);
-    longest.next_power_of_two().max(256)
+    (2 * longest).next_power_of_two().max(256)
 }
 
 /// Half angle of a spot's cone in radians.
