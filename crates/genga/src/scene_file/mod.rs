@@ -31,6 +31,8 @@ mod highlight_place;
 #[cfg(test)]
 mod highlight_tests;
 mod light;
+#[cfg(test)]
+mod light_tests;
 mod merge;
 mod model;
 mod shading;
