@@ -131,8 +131,8 @@ impl<'a> Looks<'a> {
         }
         let by_name = overrides.iter().filter(|o| !o.select.is_per_pixel());
         // One picture a surface: that of the last override by name, or the style's.
-        let maps = by_name.clone().filter_map(|o| o.paint.shade_map.as_ref());
-        let map = maps.last().or(style.paint.shade_map.as_ref());
+        let mut maps = by_name.clone().filter_map(|o| o.paint.shade_map.as_ref());
+        let map = maps.next_back().or(style.paint.shade_map.as_ref());
         let shade_image = map.and_then(|map| map.image.clone());
         let casts_shadow = by_name.filter_map(|o| o.paint.shadow.cast).next_back().unwrap_or(true);
         LookRange {

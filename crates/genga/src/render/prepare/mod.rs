@@ -213,7 +213,8 @@ struct Builder<'a> {
     /// By mesh, then by primitive.
     chunks: HashMap<usize, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
-    material_of: HashMap<(Option<usize>, Option<usize>, Option<usize>), usize>,
+    /// By the material, then the addresses of its id picture and shade picture.
+    material_of: HashMap<[Option<usize>; 3], usize>,
     shade_sampler: wgpu::Sampler,
     draws: Vec<DrawItem>,
     draw_values: Vec<Draw>,
@@ -413,7 +414,7 @@ impl<'a> Builder<'a> {
     ) -> usize {
         let shade = Shadings::picture(self.scene, shading).or(look.shade_image.as_ref());
         let pointer = |image: Option<&Arc<Image>>| image.map(|image| Arc::as_ptr(image) as usize);
-        let key = (index, pointer(look.id_image.as_ref()), pointer(shade));
+        let key = [index, pointer(look.id_image.as_ref()), pointer(shade)];
         if let Some(&group) = self.material_of.get(&key) {
             return group;
         }

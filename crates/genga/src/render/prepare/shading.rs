@@ -141,10 +141,15 @@ mod tests {
             under,
             ..Shading::default()
         };
-        let mut scene = Scene::default();
-        scene.nodes = vec![Default::default(), Default::default()];
-        scene.shadings =
-            vec![shading("skin*", None), shading("*", Some(1)), shading("skin-face", None)];
+        let scene = Scene {
+            nodes: vec![Default::default(), Default::default()],
+            shadings: vec![
+                shading("skin*", None),
+                shading("*", Some(1)),
+                shading("skin-face", None),
+            ],
+            ..Scene::default()
+        };
         assert_eq!(shading_of(&scene, 0, "", "skin-arm"), Some(0));
         assert_eq!(shading_of(&scene, 0, "", "skin-face"), Some(2));
         assert_eq!(shading_of(&scene, 0, "", "cloth"), None);
