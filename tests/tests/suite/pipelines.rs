@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use genga::render::{LayerKind, Renderer, View};
 use genga::scene::{
-    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene, Wave,
-    WaveBlend, WaveMethod, WaveOrder, WaveShape,
+    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene, Shading,
+    Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
 };
 use genga::style::{Globs, HatchMapping};
 use genga::{shapes, style::Style};
@@ -54,6 +54,8 @@ fn scene_of_all_kinds() -> Scene {
     }
     let mut scene = scene.build();
     scene.highlights = highlights_of_all_kinds();
+    let proxy = Some(Proxy::Sphere { center: Vec3::ZERO });
+    scene.shadings = vec![Shading { proxy, amount: 0.5, ..Shading::default() }];
     scene.waves = [
         (WaveOrder::Under, WaveBlend::Linear),
         (WaveOrder::LinesThrough, WaveBlend::Display),
@@ -108,6 +110,10 @@ fn styles() -> Vec<Style> {
             styles.push(style(&format!("[paint.hatch]\n{hatch}")));
         }
     }
+    styles.push(style(
+        "[paint]\nspecular = {}\nrim_light = {}\nsheen = {}\npalette = [\"#fff\"]\ndots = {}\n\
+         shade_map = { from = \"vertex-red\" }\n[paint.shadow]\nenabled = true\nresolution = 256",
+    ));
     styles
 }
 

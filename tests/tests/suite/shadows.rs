@@ -226,7 +226,7 @@ fn every_shadow_on_a_figure_is_explained_by_a_ray() {
             scene.pick(&pose, start, to_light).is_some()
                 || scene
                     .pick(&pose, far, -to_light)
-                    .is_some_and(|blocker| (blocker.point - start).dot(to_light) > 2e-3)
+                    .is_some_and(|blocker| (blocker.point - start).dot(to_light) > 1e-3)
         };
         let mut shaded = 0;
         for (x, y) in with.places() {

@@ -2,6 +2,7 @@
 
 mod hatching;
 mod highlights;
+mod light;
 mod lines;
 mod sheet;
 mod waves;
@@ -37,6 +38,8 @@ pub(crate) enum Part {
     Waves,
     /// The sheets of hatching
     Hatching,
+    /// The sheets of lights, ramps, comic highlights and print
+    Light,
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed: the named
@@ -60,6 +63,9 @@ pub(crate) fn gallery(root: &Path, parts: &[Part]) -> Result<()> {
     }
     if wanted(Part::Hatching) {
         hatching::draw(root, &genga, &folder)?;
+    }
+    if wanted(Part::Light) {
+        light::draw(root, &genga, &folder)?;
     }
     println!("\nthe pictures are in {}", folder.display());
     Ok(())

@@ -4,7 +4,7 @@ use glam::Vec2;
 
 use super::{
     generated::{self as gpu, Detect, Frame, LineSet},
-    prepare::{Prepared, looks::in_blend_space, strokes::curves},
+    prepare::{Prepared, looks::in_blend_space, shine, strokes::curves},
     targets::Scale,
     view::{Projected, View},
 };
@@ -149,6 +149,7 @@ pub(crate) fn frame_values(
     for (slot, set) in line_sets.iter_mut().zip(&style.lines.sets) {
         *slot = line_set(set, prepared, view, line_scale);
     }
+    let dots = style.paint.dots.unwrap_or_default();
     let detect = &style.lines.detect;
     let identity = |on: bool, bit: u32| if on { bit } else { 0 };
     let top = in_blend_space(style.background.color, blend);
@@ -201,10 +202,12 @@ pub(crate) fn frame_values(
             LineMethod::Rim => gpu::METHOD_RIM,
             LineMethod::Image => gpu::METHOD_IMAGE,
         },
+        palette_count: style.paint.palette.len().min(16) as u32,
+        dots_spacing: dots.spacing * line_scale,
         reserved_0: 0,
-        reserved_1: 0,
-        reserved_2: 0,
         line_sets,
+        dots_turns: shine::screens(&dots),
+        palette: shine::palette(style),
         detect: Detect {
             depth: detect.depth,
             laplacian: detect.laplacian,

@@ -51,6 +51,7 @@ impl Layouts {
                     (6, B::Uniform),
                     (7, B::DepthLayers),
                     (8, B::NearestSampler),
+                    (9, B::Uniform),
                 ],
             ),
             material: layout(
@@ -65,6 +66,8 @@ impl Layouts {
                     (4, B::Float),
                     (5, B::Filtered),
                     (6, B::Sampler),
+                    (7, B::Filtered),
+                    (8, B::Sampler),
                 ],
             ),
             highlights: layout(

@@ -6,7 +6,7 @@ use super::{
     generated::ID_OBJECT,
     gpu::{readback::TextureRead, scope, timing::Timer},
     passes::paint::PaintOutput,
-    prepare::Prepared,
+    prepare::{Prepared, shine::Features},
     renderer::{Renderer, check_view},
     targets::{Scale, Target, target},
     view::{Projected, View},
@@ -277,7 +277,8 @@ impl Renderer {
             let mut painted = PaintOutput::All;
             let mut repaint = |encoder: &mut wgpu::CommandEncoder, mut wanted: PaintOutput| {
                 // Without highlights both are the same.
-                if wanted == PaintOutput::Plain && !prepared.highlights.any() {
+                let shines = Features::of(&prepared.style).shines();
+                if wanted == PaintOutput::Plain && !prepared.highlights.any() && !shines {
                     wanted = PaintOutput::All;
                 }
                 if wanted != painted {

@@ -325,6 +325,7 @@ impl Renderer {
         let tiles = [tile, viewport(&self.device, view, tile)];
         let frame = frame_values(prepared, view, projected, tiles, output);
         prepared.highlights.write(&self.queue, prepared, view, &lights);
+        prepared.shadings.write(&self.queue, &lights);
         let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
         // Loops over them end at the first one without weight.
         lights.resize(MAX_LIGHTS, bytemuck::Zeroable::zeroed());

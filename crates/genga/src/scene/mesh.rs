@@ -38,6 +38,9 @@ pub struct Primitive {
     /// `_HATCH`: direction of hatching strokes in the node's space, of any length; 0 for none. Empty
     /// for none anywhere.
     pub hatch_directions: Vec<Vec3>,
+    /// `_SHADE_BIAS`: added to the ramp coordinate T, in [−1, 1]; empty for 0. A file's
+    /// `_SHADE_THRESHOLD`, where T has its terminator instead of at 0.5, is in it.
+    pub shade_biases: Vec<f32>,
     /// Triangles: three indices each, counter-clockwise seen from the front.
     pub indices: Vec<u32>,
     /// Index into [`super::Scene::materials`]; `None` for the default material.

@@ -14,6 +14,7 @@ mod mesh;
 mod node;
 mod pick;
 mod pose;
+mod shading;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -39,6 +40,7 @@ pub use mesh::{Mesh, MorphTarget, Primitive};
 pub use node::{Node, Skin, Transform};
 pub use pick::Hit;
 pub use pose::Pose;
+pub use shading::{FaceShadow, MAX_SHADINGS, Shading};
 pub use validate::SceneError;
 pub(crate) use validate::validate_waves;
 pub use wave::{
@@ -75,6 +77,9 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Anime highlights.
     pub highlights: Vec<Highlight>,
+    /// Surfaces that are shaded by other normals, at most [`MAX_SHADINGS`]; where several fit, the
+    /// last one counts.
+    pub shadings: Vec<Shading>,
     /// Energy waves, at most [`MAX_WAVES`]; they may change from frame to frame.
     pub waves: Vec<Wave>,
     /// How they are integrated.

@@ -79,6 +79,14 @@ pub enum SceneError {
         /// Values per key.
         width: usize,
     },
+    /// A shading cannot be used.
+    #[error("shading {index} {problem}")]
+    Shading {
+        /// Index into [`Scene::shadings`].
+        index: usize,
+        /// What is wrong, as the end of a sentence.
+        problem: String,
+    },
     /// A highlight cannot be drawn.
     #[error(transparent)]
     Highlight(#[from] HighlightError),
@@ -220,6 +228,12 @@ impl Scene {
                 }
             }
         }
+        for (index, shading) in self.shadings.iter().enumerate() {
+            let what = || format!("shading {index}");
+            check(&what, "node", shading.node, self.nodes.len())?;
+            check(&what, "node", shading.under, self.nodes.len())?;
+            shading.validate().map_err(|problem| SceneError::Shading { index, problem })?;
+        }
         for (index, highlight) in self.highlights.iter().enumerate() {
             highlight.validate(self.nodes.len()).map_err(|problem| {
                 let name = highlight.name.clone();
@@ -286,6 +300,7 @@ impl Scene {
                 length("line widths", primitive.line_widths.len(), true)?;
                 length("line ids", primitive.line_ids.len(), true)?;
                 length("hatching directions", primitive.hatch_directions.len(), true)?;
+                length("shade biases", primitive.shade_biases.len(), true)?;
                 if primitive.joints.len() != primitive.weights.len() {
                     length("joint weights", primitive.weights.len(), false)?;
                 }

@@ -92,6 +92,7 @@ impl SceneFile {
             Some(CameraEntry::Placed(placed)) => Some(SceneCamera::Placed(*placed)),
             Some(CameraEntry::Node(name)) => Some(self.camera_node(name, &merged.scene)?),
         };
+        merged.scene.shadings = self.place_shadings(&merged.scene, &placed)?;
         merged.scene.highlights = self.place_highlights(&merged.scene, &placed)?;
         Ok(Assembled { scene: merged.scene, pose: merged.pose, camera, warnings })
     }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
 use super::{
-    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, WaveEntry, WaveReference, camera,
-    highlight, light, wave,
+    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, ShadingEntry, WaveEntry,
+    WaveReference, camera, highlight, light, wave,
 };
 use crate::FileError;
 use crate::style::{Style, StyleError, is_style_path};
@@ -43,6 +43,8 @@ pub struct SceneFile {
     pub lights: Vec<LightEntry>,
     /// Anime highlights.
     pub highlights: Vec<HighlightEntry>,
+    /// Surfaces that are shaded by other normals.
+    pub shadings: Vec<ShadingEntry>,
     /// Energy waves.
     pub waves: Vec<WaveEntry>,
     /// How they are integrated, if not exactly.
@@ -96,6 +98,11 @@ struct Written {
     #[serde(default, deserialize_with = "highlight::highlights")]
     #[schemars(with = "Vec<HighlightEntry>", length(max = 1000))]
     highlight: Vec<HighlightEntry>,
+    /// Surfaces that are shaded by the normals of a smooth shape, or by a keyed face shadow; the last
+    /// one that fits counts.
+    #[serde(default, deserialize_with = "shadings")]
+    #[schemars(length(max = 16))]
+    shading: Vec<ShadingEntry>,
     /// Energy waves.
     #[serde(default, deserialize_with = "waves")]
     #[schemars(with = "Vec<wave::Written>", length(max = 240))]
@@ -106,6 +113,10 @@ struct Written {
     /// The picture to make.
     #[serde(default)]
     picture: Picture,
+}
+
+fn shadings<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<ShadingEntry>, D::Error> {
+    list_with(deserializer, |_, entry: &ShadingEntry| entry.check())
 }
 
 fn lights<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LightEntry>, D::Error> {
@@ -155,6 +166,7 @@ impl SceneFile {
             camera: written.camera,
             lights: written.light,
             highlights: written.highlight,
+            shadings: written.shading,
             waves: written.wave,
             wave_reference: written.wave_reference,
             picture: written.picture,

@@ -343,7 +343,7 @@ fn direction([azimuth, elevation]: [f32; 2]) -> Vec3 {
 }
 
 impl ProxyEntry {
-    fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         use ProxyKind as K;
         let kind = self.r#type;
         let given = [

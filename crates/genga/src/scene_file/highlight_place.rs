@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{Affine3A, Vec2, Vec3};
 
 use super::assemble::not_there;
-use super::highlight::{HighlightEntry, ProxyKind};
-use super::{Located, SceneFile};
+use super::highlight::{HighlightEntry, ProxyEntry, ProxyKind};
+use super::{Located, SceneFile, ShadingEntry};
 use crate::FileError;
-use crate::scene::{Drawing, Highlight, Image, Pose, Proxy, ProxyMesh, Scene};
+use crate::scene::{Drawing, FaceShadow, Highlight, Image, Pose, Proxy, ProxyMesh, Scene, Shading};
 use crate::style::picture;
 
 /// A model in the assembled scene.
@@ -31,6 +31,17 @@ impl SceneFile {
         let rest = Pose::rest(scene);
         let place = Places { file: self, scene, rest: &rest, instances };
         self.highlights.iter().map(|entry| place.highlight(entry)).collect()
+    }
+
+    /// The shadings with everything that they refer to.
+    pub(super) fn place_shadings(
+        &self,
+        scene: &Scene,
+        instances: &[Instance],
+    ) -> Result<Vec<Shading>, FileError> {
+        let rest = Pose::rest(scene);
+        let place = Places { file: self, scene, rest: &rest, instances };
+        self.shadings.iter().map(|entry| place.shading(entry)).collect()
     }
 }
 
@@ -67,7 +78,7 @@ impl Places<'_> {
             under: instance.map(|instance| instance.top),
             objects: entry.objects.clone(),
             materials: entry.materials.clone(),
-            proxy: self.proxy(entry, node, instance)?,
+            proxy: self.proxy(&entry.proxy, node, instance)?,
             gamma: entry.gamma,
             light,
             size: Vec2::from(entry.size_deg.map(f32::to_radians)),
@@ -82,6 +93,34 @@ impl Places<'_> {
             self.file.error(&entry.drawing, format!("this highlight {problem}"))
         })?;
         Ok(highlight)
+    }
+
+    fn shading(&self, entry: &ShadingEntry) -> Result<Shading, FileError> {
+        let instance = match &entry.model {
+            Some(name) => Some(self.instance(name)?),
+            None => self.instances.first().filter(|_| self.instances.len() == 1),
+        };
+        let node = match &entry.node {
+            Some(name) => Some(self.node(name, instance)?),
+            None => instance.map(|instance| instance.top),
+        };
+        let proxy = match &entry.proxy {
+            Some(proxy) => Some(self.proxy(proxy, node, instance)?),
+            None => None,
+        };
+        let face_shadow = match &entry.face_shadow {
+            Some(path) => Some(FaceShadow { image: self.picture(path)?, mirror_u: entry.mirror_u }),
+            None => None,
+        };
+        Ok(Shading {
+            node,
+            under: instance.map(|instance| instance.top),
+            objects: entry.objects.clone(),
+            materials: entry.materials.clone(),
+            proxy,
+            amount: entry.amount,
+            face_shadow,
+        })
     }
 
     fn instance(&self, name: &Located<String>) -> Result<&Instance, FileError> {
@@ -149,11 +188,10 @@ impl Places<'_> {
 
     fn proxy(
         &self,
-        entry: &HighlightEntry,
+        proxy: &Located<ProxyEntry>,
         node: Option<usize>,
         instance: Option<&Instance>,
     ) -> Result<Proxy, FileError> {
-        let proxy = &entry.proxy;
         let point = |p: Option<[f32; 3]>| p.map_or(Vec3::ZERO, Vec3::from);
         let center = point(proxy.center);
         Ok(match proxy.r#type {

@@ -31,8 +31,11 @@ mod highlight_place;
 #[cfg(test)]
 mod highlight_tests;
 mod light;
+#[cfg(test)]
+mod light_tests;
 mod merge;
 mod model;
+mod shading;
 #[cfg(test)]
 mod tests;
 mod wave;
@@ -48,4 +51,5 @@ pub use highlight::{
 };
 pub use light::LightEntry;
 pub use model::{ClipEntry, ModelEntry, Scale};
+pub use shading::ShadingEntry;
 pub use wave::{NodeNames, WaveEntry, WaveReference};

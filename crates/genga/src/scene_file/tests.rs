@@ -237,7 +237,34 @@ fn errors_name_the_place_and_the_remedy() {
             "version = 1\n[[light]]\ntype = 'spto'",
             "3:8: 'type' must be \"directional\", \"point\", \"spot\" or \"sky\", not \"spto\"",
         ),
-        ("version = 1\n[[light]]\ntype = 'point'", "2:1: 'light' must have a 'position'"),
+        (
+            "version = 1\n[[light]]\ntype = 'point'",
+            "2:1: 'light' must have a 'position' or a 'node'",
+        ),
+        (
+            "version = 1\n[[light]]\ntype = 'sky'\nelevation_deg = 3",
+            "2:1: 'light' must not have angles: a sky's 'direction' says where the ground is",
+        ),
+        (
+            "version = 1\n[[light]]\ntype = 'sky'\ncasts_shadow = false",
+            "2:1: 'light' must not have 'casts_shadow': a sky casts none",
+        ),
+        (
+            "version = 1\n[[light]]\ntype = 'spot'\nnode = 'a'\npinned_to = 'world'",
+            "2:1: 'light' must have either a 'node' or 'pinned_to', not both",
+        ),
+        (
+            "version = 1\n[[shading]]\namount = 0.5",
+            "2:1: 'shading' must have a 'proxy' or a 'face_shadow'",
+        ),
+        (
+            "version = 1\n[[shading]]\nmirror_u = 0.5\nproxy = {}",
+            "2:1: 'shading' must not have 'mirror_u' without a 'face_shadow'",
+        ),
+        (
+            "version = 1\n[[shading]]\nproxy = { type = 'capsule' }",
+            "2:1: 'shading' must have another 'proxy': a capsule needs either 'to' or 'to_node'",
+        ),
         (
             "version = 1\n[[light]]\ntype = 'point'\nposition = [0, 0, 0]\n[[light]]\ntype = 'directional'\nrange = 3",
             "5:1: 'light' must not have 'range': a directional light has none",

@@ -30,7 +30,9 @@ mod overrides;
 mod paint;
 pub(crate) mod picture;
 mod presets;
+mod shade_map;
 mod shadow;
+mod shine;
 #[cfg(test)]
 mod tests;
 mod widths;
@@ -50,7 +52,9 @@ pub use overrides::{
 pub use paint::{
     Background, BaseColor, BlendSpace, Paint, PinnedTo, Ramp, RampStop, StyleLight, ToneBlend,
 };
+pub use shade_map::{ShadeMap, ShadeSource};
 pub use shadow::{Shadow, ShadowOverride};
+pub use shine::{Dots, RimLight, Sheen, ShineBlend, Specular, SpecularForm};
 pub use widths::{Curve, WidthBy, Wobble};
 
 /// A whole look.

@@ -4,7 +4,10 @@ use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::{BaseColor, Color, Globs, Hatch, Ramp, ShadowOverride, picture};
+use super::{
+    BaseColor, Color, Globs, Hatch, Ramp, RimLight, ShadeMap, ShadowOverride, Sheen, Specular,
+    picture,
+};
 use crate::scene::Image;
 
 /// What differs for a part of the scene.
@@ -116,10 +119,18 @@ pub struct PaintOverride {
     /// Instead of the style's `paint.shade_bias`.
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: Option<f32>,
+    /// Instead of the style's `paint.shade_map`; a strength of 0 is none.
+    pub shade_map: Option<ShadeMap>,
     /// Cast shadows.
     pub shadow: ShadowOverride,
     /// Instead of the style's `paint.hatch`, all of it.
     pub hatch: Option<Hatch>,
+    /// Instead of the style's `paint.specular`; a strength of 0 is none.
+    pub specular: Option<Specular>,
+    /// Instead of the style's `paint.rim_light`; a strength of 0 is none.
+    pub rim_light: Option<RimLight>,
+    /// Instead of the style's `paint.sheen`; a strength of 0 is none.
+    pub sheen: Option<Sheen>,
 }
 
 /// Changes to lines; what is `None` stays.

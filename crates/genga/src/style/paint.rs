@@ -4,7 +4,7 @@ use std::sync::Arc;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Color, Hatch, Shadow, picture};
+use super::{Color, Dots, Hatch, RimLight, ShadeMap, Shadow, Sheen, Specular, picture};
 use crate::scene::Image;
 use crate::toml_file::list_with;
 
@@ -75,10 +75,23 @@ pub struct Paint {
     /// Added to the ramp coordinate T: positive keeps a surface lighter. In [−1, 1].
     #[schemars(range(min = -1, max = 1))]
     pub shade_bias: f32,
+    /// Shade bias by vertex or texel; none by default.
+    pub shade_map: Option<ShadeMap>,
     /// Cast shadows.
     pub shadow: Shadow,
     /// Ink over the colour: hatching, screen tone, blacks.
     pub hatch: Hatch,
+    /// A comic highlight; none by default.
+    pub specular: Option<Specular>,
+    /// A rim of light from behind; none by default.
+    pub rim_light: Option<RimLight>,
+    /// Straight streaks; none by default.
+    pub sheen: Option<Sheen>,
+    /// Surfaces take the nearest of these colours after the ramp; empty for all colours.
+    #[schemars(length(max = 16))]
+    pub palette: Vec<Color>,
+    /// Colours as dots of the old four-colour print; not by default.
+    pub dots: Option<Dots>,
 }
 
 impl Default for Paint {
@@ -88,13 +101,19 @@ impl Default for Paint {
             blend_space: BlendSpace::Display,
             ramp: Ramp::default(),
             shade_bias: 0.0,
+            shade_map: None,
             shadow: Shadow::default(),
             hatch: Hatch::default(),
+            specular: None,
+            rim_light: None,
+            sheen: None,
+            palette: Vec::new(),
+            dots: None,
         }
     }
 }
 
-/// Where a surface's colour comes from. In files: `"model"`, `"none"` or a colour.
+/// Where a surface's colour comes from. In files: `"model"`, `"none"`, `"paper"` or a colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum BaseColor {
     /// The model's base colour: factor × texture × vertex colour.
@@ -102,6 +121,8 @@ pub enum BaseColor {
     Model,
     /// Nothing is painted; the background shows. Surfaces still hide what is behind them.
     None,
+    /// The background's colour: bare paper that ink and shade lie on.
+    Paper,
     /// One colour.
     Fixed(Color),
 }
@@ -200,9 +221,10 @@ impl<'de> Deserialize<'de> for BaseColor {
         match String::deserialize(deserializer)?.as_str() {
             "model" => Ok(Self::Model),
             "none" => Ok(Self::None),
+            "paper" => Ok(Self::Paper),
             text => text.parse().map(Self::Fixed).map_err(|_| {
                 serde::de::Error::custom(
-                    "must be \"model\", \"none\" or a colour such as \"#ff8800\"",
+                    "must be \"model\", \"none\", \"paper\" or a colour such as \"#ff8800\"",
                 )
             }),
         }
@@ -214,6 +236,7 @@ impl Serialize for BaseColor {
         match self {
             Self::Model => serializer.serialize_str("model"),
             Self::None => serializer.serialize_str("none"),
+            Self::Paper => serializer.serialize_str("paper"),
             Self::Fixed(color) => color.serialize(serializer),
         }
     }
@@ -226,9 +249,9 @@ impl JsonSchema for BaseColor {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "Where a surface's colour comes from: \"model\" (its own colours), \"none\" (the background shows) or one colour such as \"#ff8800\".",
+            "description": "Where a surface's colour comes from: \"model\" (its own colours), \"none\" (the background shows), \"paper\" (the background's colour) or one colour such as \"#ff8800\".",
             "type": "string",
-            "pattern": "^(model|none|#([0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8}))$",
+            "pattern": "^(model|none|paper|#([0-9a-fA-F]{3,4}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8}))$",
         })
     }
 }

@@ -158,7 +158,7 @@ fn errors_name_the_place_and_the_remedy() {
         ),
         (
             "version = 1\npaint.base = \"modl\"",
-            "2:14: 'base' must be \"model\", \"none\" or a colour such as \"#ff8800\"",
+            "2:14: 'base' must be \"model\", \"none\", \"paper\" or a colour such as \"#ff8800\"",
         ),
         (
             "version = 1\npaint.shade_bias = nan",

@@ -131,6 +131,26 @@ impl<'a> Attributes<'a, '_> {
         Ok(accessor.floats::<f32>().into_iter().map(|id| u32::from(id.round() as u16)).collect())
     }
 
+    /// `_SHADE_BIAS` in [−1, 1], and `_SHADE_THRESHOLD` in [0, 1], which counts as 0.5 less it.
+    pub(super) fn shade_biases(&self) -> Result<Vec<f32>, Problem> {
+        let floats = |name: &str, neutral: f32| -> Result<Vec<f32>, Problem> {
+            let Some(accessor) = self.accessor(name, &[Shape::Scalar])? else {
+                return Ok(Vec::new());
+            };
+            let values: Vec<f32> = accessor.floats();
+            let finite = |value: f32| if value.is_finite() { value } else { neutral };
+            Ok(values.into_iter().map(finite).collect())
+        };
+        let mut biases = floats("_SHADE_BIAS", 0.0)?;
+        let thresholds = floats("_SHADE_THRESHOLD", 0.5)?;
+        biases.resize(biases.len().max(thresholds.len()), 0.0);
+        for (bias, threshold) in biases.iter_mut().zip(thresholds) {
+            *bias += 0.5 - threshold.clamp(0.0, 1.0);
+        }
+        biases.iter_mut().for_each(|bias| *bias = bias.clamp(-1.0, 1.0));
+        Ok(biases)
+    }
+
     /// The four strongest influences of each vertex over all sets; their weights add up to 1.
     pub(super) fn influences(&self) -> Result<Influences, Problem> {
         let mut sets: Vec<(Vec<u32>, Vec<[f32; 4]>)> = Vec::new();

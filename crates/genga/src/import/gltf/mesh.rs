@@ -110,6 +110,7 @@ fn read_primitive(file: &GltfFile, what: &str, item: &Item) -> Result<Option<Pri
         line_widths: attributes.line_widths()?,
         line_ids: attributes.line_ids()?,
         hatch_directions: attributes.hatch_directions()?,
+        shade_biases: attributes.shade_biases()?,
         joints,
         weights,
         positions,
@@ -225,6 +226,7 @@ fn remove_unused_vertices(primitive: &mut Primitive) {
     retain(&mut primitive.line_widths, &used);
     retain(&mut primitive.line_ids, &used);
     retain(&mut primitive.hatch_directions, &used);
+    retain(&mut primitive.shade_biases, &used);
     for target in &mut primitive.morph_targets {
         retain(&mut target.positions, &used);
         retain(&mut target.normals, &used);

@@ -66,9 +66,9 @@ struct Draw {
     alpha_cutoff: f32,
     line_width: f32,
     rest_scale: f32,
+    shading: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct Frame {
@@ -94,11 +94,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct GBuffer {
@@ -150,6 +152,9 @@ struct LineSet {
 struct Look {
     fixed_color: vec4f,
     tones: array<Tone, 8>,
+    specular: Specular,
+    rim_light: RimLight,
+    sheen: Sheen,
     tone_count: u32,
     flags: u32,
     gain: f32,
@@ -161,7 +166,11 @@ struct Look {
     rim_softness: f32,
     hull_width_m: f32,
     shadow_tone: f32,
+    shade_strength: f32,
+    shade_source: u32,
     reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32,
     hatch: Hatch
 }
 
@@ -170,6 +179,21 @@ struct MaterialSample {
     alpha: f32,
     emissive: vec3f,
     look: u32
+}
+
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
+}
+
+struct RimLight {
+    color: vec4f,
+    direction: vec3f,
+    threshold: f32,
+    softness: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32
 }
 
 struct Rule {
@@ -182,6 +206,33 @@ struct Rule {
     vertex_low: vec4f,
     vertex_high: vec4f,
     id_color: vec4f
+}
+
+struct Sheen {
+    color: vec4f,
+    turn: vec2f,
+    spacing: f32,
+    offset: f32,
+    width: f32,
+    second: f32,
+    gap: f32,
+    flags: u32
+}
+
+struct Specular {
+    color: vec4f,
+    translate: vec2f,
+    scale: vec2f,
+    split: vec2f,
+    turn: vec2f,
+    exponent: f32,
+    threshold: f32,
+    gradient: f32,
+    square: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Surface {
@@ -200,11 +251,13 @@ struct Surface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
-    line_id: u32
+    line_id: u32,
+    @location(9) @interpolate(flat)
+    face: vec4f
 }
 
 struct Tone {
@@ -349,7 +402,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
@@ -381,7 +434,7 @@ fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> G
     let normal = facing_normal(in, front_facing);
     let line_id = select(in.line_id, looks[material.look].line_id, in.line_id == 0u);
     let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (line_id << 16u));
-    let width = select(0.0, looks[material.look].line_width, in.line_width > 0.0);
+    let width = select(0.0, looks[material.look].line_width, in.marks.x > 0.0);
     var base = material.base;
     if ((looks[material.look].flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[material.look].fixed_color.rgb;

@@ -27,6 +27,9 @@ var shadow_depths: texture_depth_2d_array;
 @group(0) @binding(8)
 var nearest: sampler;
 
+@group(0) @binding(9)
+var<uniform> shadings: array<Shading, 16>;
+
 @group(1) @binding(0)
 var base_color_texture: texture_2d<f32>;
 
@@ -47,6 +50,12 @@ var hatch_image: texture_2d<f32>;
 
 @group(1) @binding(6)
 var hatch_sampler: sampler;
+
+@group(1) @binding(7)
+var shade_picture: texture_2d<f32>;
+
+@group(1) @binding(8)
+var shade_sampler: sampler;
 
 @group(2) @binding(0)
 var<uniform> highlights: HighlightBlock;
@@ -176,6 +185,16 @@ const RULE_ID_TEXTURE: u32 = 4u;
 
 const RULE_VERTEX_COLOR: u32 = 2u;
 
+const SHADE_FROM_NOTHING: u32 = 4u;
+
+const SHADE_FROM_PICTURE: u32 = 5u;
+
+const SHINE_GRADIENT: u32 = 1u;
+
+const SHINE_PAPER: u32 = 4u;
+
+const SHINE_REPLACE: u32 = 2u;
+
 const TAPER: f32 = 0.12;
 
 const TAU: f32 = 6.2831853;
@@ -213,9 +232,9 @@ struct Draw {
     alpha_cutoff: f32,
     line_width: f32,
     rest_scale: f32,
+    shading: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct Footing {
@@ -251,11 +270,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct Frames {
@@ -263,6 +284,19 @@ struct Frames {
     across: vec3f,
     right: vec3f,
     up: vec3f
+}
+
+struct Glance {
+    half: vec3f,
+    half_x: vec3f,
+    half_y: vec3f,
+    normal: vec3f,
+    normal_x: vec3f,
+    normal_y: vec3f,
+    p_in_world: vec3f,
+    p_x: vec3f,
+    p_y: vec3f,
+    facing: f32
 }
 
 struct Hand {
@@ -322,18 +356,20 @@ struct HatchedSurface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
     line_id: u32,
-    @location(9)
-    direction: vec3f,
+    @location(9) @interpolate(flat)
+    face: vec4f,
     @location(10)
-    rest: vec3f,
+    direction: vec3f,
     @location(11)
-    rest_normal: vec3f,
+    rest: vec3f,
     @location(12)
+    rest_normal: vec3f,
+    @location(13)
     rest_direction: vec3f
 }
 
@@ -407,6 +443,9 @@ struct LineSet {
 struct Look {
     fixed_color: vec4f,
     tones: array<Tone, 8>,
+    specular: Specular,
+    rim_light: RimLight,
+    sheen: Sheen,
     tone_count: u32,
     flags: u32,
     gain: f32,
@@ -418,7 +457,11 @@ struct Look {
     rim_softness: f32,
     hull_width_m: f32,
     shadow_tone: f32,
+    shade_strength: f32,
+    shade_source: u32,
     reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32,
     hatch: Hatch
 }
 
@@ -437,6 +480,11 @@ struct Octave {
     even: f32,
     odd: f32,
     far: f32
+}
+
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
 }
 
 struct Pen {
@@ -472,6 +520,16 @@ struct RestInput {
     direction_at_rest: u32
 }
 
+struct RimLight {
+    color: vec4f,
+    direction: vec3f,
+    threshold: f32,
+    softness: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32
+}
+
 struct Rule {
     conditions: u32,
     id_tolerance: f32,
@@ -490,9 +548,21 @@ struct Shaded {
     t: f32,
     t_width: f32,
     reach: f32,
+    key_reach: f32,
     rim: f32,
     rim_width: f32,
     own_tone: f32
+}
+
+struct Shading {
+    center: vec3f,
+    amount: f32,
+    axis: vec3f,
+    axis_length: f32,
+    normals_x: vec4f,
+    normals_y: vec4f,
+    normals_z: vec4f,
+    face: vec4f
 }
 
 struct ShadowMap {
@@ -502,6 +572,33 @@ struct ShadowMap {
     texel_m: f32,
     depth_scale: f32,
     is_perspective: f32
+}
+
+struct Sheen {
+    color: vec4f,
+    turn: vec2f,
+    spacing: f32,
+    offset: f32,
+    width: f32,
+    second: f32,
+    gap: f32,
+    flags: u32
+}
+
+struct Specular {
+    color: vec4f,
+    translate: vec2f,
+    scale: vec2f,
+    split: vec2f,
+    turn: vec2f,
+    exponent: f32,
+    threshold: f32,
+    gradient: f32,
+    square: f32,
+    flags: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct Surface {
@@ -520,11 +617,13 @@ struct Surface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
-    line_id: u32
+    line_id: u32,
+    @location(9) @interpolate(flat)
+    face: vec4f
 }
 
 struct Tone {
@@ -582,10 +681,32 @@ fn brightest_tone(look: u32, t: f32, width: f32) -> f32 {
     return select(1.0, saturate((t - looks[look].tones[last].at) / edge + 0.5), last > 0u);
 }
 
+fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split: vec2f, square: f32) -> f32 {
+    var h = vec3f(half.x * turn.x + half.y * turn.y, half.y * turn.x - half.x * turn.y, half.z);
+    h = unit(vec3f(h.xy * (1.0 - scale), h.z));
+    h = unit(h + vec3f(translate.x * turn.x + translate.y * turn.y, translate.y * turn.x - translate.x * turn.y, 0.0));
+    h = unit(vec3f(h.xy - split * select(vec2f(-1.0), vec2f(1.0), h.xy >= vec2f(0.0)), h.z));
+    let corner = max(abs(h.x), abs(h.y)) / max(length(h.xy), 1e-6);
+    h = unit(vec3f(h.xy * mix(1.0, corner, square), h.z));
+    return max(h.z, 0.0);
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn dot_coverage(p: vec2f, turn: vec2f, spacing: f32, ink: f32) -> f32 {
+    let q = vec2f(p.x * turn.x + p.y * turn.y, p.y * turn.x - p.x * turn.y) / spacing;
+    let is_hole = ink > 0.5;
+    let area = select(ink, 1.0 - ink, is_hole);
+    let shift = select(0.0, 0.5, is_hole);
+    let to_center = q + shift - round(q + shift);
+    let radius = spacing * sqrt(max(area, 0.0) / 3.14159265);
+    var covered = saturate(radius - spacing * length(to_center) + 0.5);
+    covered *= saturate(2.0 * radius);
+    return select(covered, 1.0 - covered, is_hole);
 }
 
 fn dot_radius(part: f32) -> f32 {
@@ -707,6 +828,30 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     return Frames(rest_d * way.x + rest_b * way.y, rest_b * way.x - rest_d * way.y, rest_d * dot(d, right) + rest_b * dot(b, right), rest_d * dot(d, up) + rest_b * dot(b, up));
 }
 
+fn glance_at(p_in_world: vec3f, normal: vec3f, to_eye: vec3f, to_light: vec3f) -> Glance {
+    let between = to_light + to_eye;
+    let h = between * inverseSqrt(max(dot(between, between), 1e-12));
+    let across = cross(frame.camera_up.xyz, normal);
+    let u = across * inverseSqrt(max(dot(across, across), 1e-12));
+    let v = cross(normal, u);
+    let half = vec3f(dot(h, u), dot(h, v), dot(h, normal));
+    return Glance(half, half + dpdx(half), half + dpdy(half), normal, normal + dpdx(normal), normal + dpdy(normal), p_in_world, p_in_world + dpdx(p_in_world), p_in_world + dpdy(p_in_world), dot(normal, to_light));
+}
+
+fn glance_of(in: Surface, front_facing: bool) -> Glance {
+    var glance: Glance;
+    if (SPECULAR | RIM_LIGHT | SHEEN) {
+        let normal = facing_normal(in, front_facing);
+        let to_light = light_term(lights[0], in.p_in_world, normal).to_light;
+        glance = glance_at(in.p_in_world, normal, to_eye(frame, in.p_in_world), to_light);
+    }
+    return glance;
+}
+
+fn gradient_highlight(i: f32, b: f32, m: f32) -> f32 {
+    return select(0.0, saturate(0.5 * (i - b) * pow(2.5 * b + i, m)), i > b);
+}
+
 fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
     let own = hatch_hash(line, 1e30, seed);
     let is_second = ways[1].lead + 0.3 * own.x > ways[0].lead;
@@ -808,9 +953,8 @@ fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
     return lum;
 }
 
-fn hatched_from_vertex(in: VertexInput, rest: RestInput, texels_per_pixel: f32) -> HatchedSurface {
-    let s = surface_from_vertex(in, texels_per_pixel);
-    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.line_width, s.draw, s.line_id, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
+fn hatched_from_surface(s: Surface, rest: RestInput) -> HatchedSurface {
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, s.draw, s.line_id, s.face, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -853,7 +997,7 @@ fn highlight_mask(i: u32, uv: vec2f, lit: f32) -> f32 {
     return left;
 }
 
-fn highlit(in: Surface, front_facing: bool, coverage: vec4f, shaded: Shaded, under: vec4f) -> vec4f {
+fn highlit(in: Surface, front_facing: bool, coverage: vec4f, glance: Glance, shaded: Shaded, under: vec4f) -> vec4f {
     let normal = facing_normal(in, front_facing);
     let eye = to_eye(frame, in.p_in_world);
     var color = under;
@@ -867,6 +1011,7 @@ fn highlit(in: Surface, front_facing: bool, coverage: vec4f, shaded: Shaded, und
     if (OUTPUT == OUTPUT_HIGHLIGHT) {
         color = vec4f(0.0);
     }
+    color = shone(shaded, glance, color);
     var lit = 1.0;
     if (HAS_TONE) {
         lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
@@ -942,6 +1087,16 @@ fn inked(shaded: Shaded, point: HatchPoint, draw: u32) -> vec4f {
 
 fn is_cut_out(in: Surface, alpha: f32) -> bool {
     return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
+}
+
+fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
+    let strength = color.a * coverage;
+    let alpha = mix(below.a, 1.0, strength);
+    if ((flags & (SHINE_REPLACE | SHINE_PAPER)) != 0u) {
+        return vec4f(mix(below.rgb, color.rgb, strength), alpha);
+    }
+    let added = min(below.rgb + color.rgb * strength, vec3f(alpha));
+    return vec4f(max(below.rgb, added), alpha);
 }
 
 fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
@@ -1140,6 +1295,23 @@ fn nearest_axes(x: vec3f) -> Axes {
     return Axes(signed_axis(s * (first * best.x + second * best.y + third * best.z)), signed_axis(s * (first * next.x + second * next.y + third * next.z)), best_dot - next_dot);
 }
 
+fn nearest_color(color: vec3f) -> vec3f {
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let clamped = saturate(color);
+    let lab = oklab_from_linear(select(linear_from_display(clamped), clamped, is_linear));
+    var best = 0u;
+    var least = 1000000000.0;
+    for (var i = 0u; i < frame.palette_count; i++) {
+        let d = lab - frame.palette[i].lab.xyz;
+        let distance = dot(d, d);
+        if (distance < least) {
+            least = distance;
+            best = i;
+        }
+    }
+    return frame.palette[best].color.rgb;
+}
+
 fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
     if (SHARE_PROXY) {
         return drawing_lookup(i, first).z;
@@ -1166,6 +1338,14 @@ fn octave(x: f32, wanted: f32) -> Octave {
     return Octave(period, wanted, rho - m, scaled, even, even + side, even + 2.0 * side);
 }
 
+fn oklab_from_linear(c: vec3f) -> vec3f {
+    let l = dot(c, vec3f(0.4122214708, 0.5363325363, 0.0514459929));
+    let m = dot(c, vec3f(0.2119034982, 0.6806995451, 0.1073969566));
+    let s = dot(c, vec3f(0.0883024619, 0.2817188376, 0.6299787005));
+    let r = pow(max(vec3f(l, m, s), vec3f(0.0)), vec3f(1.0 / 3.0));
+    return vec3f(dot(r, vec3f(0.2104542553, 0.793617785, -0.0040720468)), dot(r, vec3f(1.9779984951, -2.428592205, 0.4505937099)), dot(r, vec3f(0.0259040371, 0.7827717662, -0.808675766)));
+}
+
 fn paper(pixel: vec2f) -> f32 {
     var height = 0.0;
     for (var i = 0u; i < 2u; i++) {
@@ -1178,6 +1358,10 @@ fn paper(pixel: vec2f) -> f32 {
         height += mix(top, bottom, w.y);
     }
     return saturate(0.5 + 0.45 * height);
+}
+
+fn part_inside(x: f32, w: f32, end: f32) -> f32 {
+    return saturate((min(x + 0.5 * w, end) - max(x - 0.5 * w, 0.0)) / w);
 }
 
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
@@ -1222,6 +1406,15 @@ fn points(pen: Pen, across: f32, along: f32, slopes: vec2f, share: f32, salt: u3
     return max(ink, saturate((pen.darkness - 1.0) * 8.0));
 }
 
+fn printed_color(color: vec3f, p_px: vec2f) -> vec3f {
+    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
+    let clamped = saturate(color);
+    let shown = select(clamped, display_from_linear(clamped), is_linear);
+    let spacing = frame.dots_spacing;
+    let printed = 1.0 - vec3f(dot_coverage(p_px, frame.dots_turns[0].xy, spacing, 1.0 - shown.r), dot_coverage(p_px, frame.dots_turns[0].zw, spacing, 1.0 - shown.g), dot_coverage(p_px, frame.dots_turns[1].xy, spacing, 1.0 - shown.b));
+    return select(printed, linear_from_display(printed), is_linear);
+}
+
 fn proxy_normal(i: u32, p_in_world: vec3f) -> vec3f {
     var q = p_in_world - highlights.items[i].center;
     if (HAS_AXIS) {
@@ -1251,11 +1444,7 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
             weight = saturate((t - previous_at) / max(at - previous_at, 1e-6));
         }
         else {
-            let softness = looks[look].tones[i].softness;
-            weight = saturate((t - at) / max(max(softness, width), MIN_WIDTH) + 0.5);
-            if (softness > width) {
-                weight = weight * weight * (3.0 - 2.0 * weight);
-            }
+            weight = tone_weight(look, i, t, width);
         }
         if (weight > 0.0) {
             let next = tone_color(look, i);
@@ -1303,6 +1492,16 @@ fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> ve
     return vec4f(2.0 * dot(n, to_eye) * n - n_squared * to_eye, n_squared);
 }
 
+fn rim_coverage(look: u32, glance: Glance) -> f32 {
+    let d = looks[look].rim_light.direction;
+    let l = d.x * frame.camera_right.xyz + d.y * frame.camera_up.xyz + d.z * frame.camera_back.xyz;
+    let here = 0.5 + 0.5 * dot(glance.normal, l);
+    let x = 0.5 * dot(glance.normal_x - glance.normal, l);
+    let y = 0.5 * dot(glance.normal_y - glance.normal, l);
+    let width = max(max(looks[look].rim_light.softness, length(vec2f(x, y))), 0.0001);
+    return saturate((here - looks[look].rim_light.threshold) / width + 0.5);
+}
+
 fn rule_holds(rule: Rule, in: Surface, base: vec3f) -> bool {
     var holds = true;
     if ((rule.conditions & RULE_BASE_COLOR) != 0u) {
@@ -1344,6 +1543,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
     var terms: array<vec2f, 16>;
+    let first_term = light_term(lights[0], in.p_in_world, normal).term;
     if (SHADOWS) {
         let receiver = receiver_at(in.p_in_world, normal);
         for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
@@ -1357,7 +1557,19 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
         }
     }
+    var picture = 0.5;
+    if (EDITED_SHADING | SHADE_PICTURES) {
+        let is_mirrored = in.face.w > 0.0 && in.face.y >= 0.0 && in.face.z > 0.0;
+        let u = select(in.id_uv.x, 2.0 * in.face.y - in.id_uv.x, is_mirrored);
+        picture = textureSampleLevel(shade_picture, shade_sampler, vec2f(u, in.id_uv.y), 0.0).r;
+        if (in.face.w > 0.0) {
+            let term = clamp(2.0 * (picture - in.face.x), -1.0, 1.0);
+            sum += lights[0].factors.x * (term - first_term);
+            terms[0].x = term;
+        }
+    }
     let sum_width = fwidth(sum);
+    let picture_width = fwidth(picture);
     var rim = 0.0;
     var rim_width = 0.0;
     if (frame.line_method == METHOD_RIM) {
@@ -1368,15 +1580,26 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         discard;
     }
     let gain = looks[look_index].gain;
-    let bias = looks[look_index].shade_bias;
+    var bias = looks[look_index].shade_bias + in.marks.y;
+    var free_width = 0.5 * gain * sum_width;
+    let source = looks[look_index].shade_source;
+    if (source != SHADE_FROM_NOTHING) {
+        var shade = picture;
+        if (source != SHADE_FROM_PICTURE) {
+            shade = select(select(in.color.x, in.color.y, source == 1u), select(in.color.z, in.color.w, source == 3u), source >= 2u);
+        }
+        let strength = looks[look_index].shade_strength;
+        bias += strength * (2.0 * shade - 1.0);
+        free_width += select(0.0, 2.0 * abs(strength) * picture_width, source == SHADE_FROM_PICTURE);
+    }
     let t_free = ramp_coordinate(sum, gain, bias);
-    let free_width = 0.5 * gain * sum_width;
     var t = t_free;
     var t_width = free_width;
     var t_lit = t_free;
     var t_dark = t_free;
     var lit = 1.0;
     var reach = 1.0;
+    var key_reach = 1.0;
     if (SHADOWS) {
         if ((look_flags & LOOK_UNSHADOWED) == 0u) {
             let tone = looks[look_index].shadow_tone;
@@ -1385,6 +1608,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
+            key_reach = terms[0].y;
             for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
                 let weight = lights[i].factors.x;
                 let term = terms[i].x;
@@ -1422,11 +1646,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             }
         }
         else {
-            let ramp = ramp_color(look_index, t_lit, free_width);
-            color = base * ramp.factor + ramp.added;
+            color = under_ramp(look_index, base, t_lit, free_width);
             if (SHADOWS) {
-                let dark = ramp_color(look_index, t_dark, free_width);
-                color = mix(base * dark.factor + dark.added, color, lit);
+                color = mix(under_ramp(look_index, base, t_dark, free_width), color, lit);
             }
         }
     }
@@ -1435,6 +1657,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     }
     if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
         color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
+    }
+    if (DOTS && OUTPUT < OUTPUT_BASE) {
+        color = printed_color(color, frame.viewport_origin + in.clip.xy / frame.paint_scale);
     }
     var alpha = 1.0;
     if ((draw_flags & DRAW_ALPHA_BLEND) != 0u) {
@@ -1445,7 +1670,58 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         alpha = 0.0;
     }
     let own_tone = dot(material.base, vec3f(0.299, 0.587, 0.114));
-    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, rim, rim_width, own_tone);
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, key_reach, rim, rim_width, own_tone);
+}
+
+fn shaded_surface(in: VertexInput) -> Surface {
+    var surface = surface_from_vertex(in, frame.paint_scale);
+    if (EDITED_SHADING) {
+        let number = draws[in.draw].shading;
+        if (number > 0u) {
+            surface.normal = shading_normal(number - 1u, in.p_in_world, surface.normal);
+            surface.face = shadings[number - 1u].face;
+        }
+    }
+    return surface;
+}
+
+fn shading_normal(shading: u32, p_in_world: vec3f, normal: vec3f) -> vec3f {
+    let from_center = p_in_world - shadings[shading].center;
+    let axis = shadings[shading].axis;
+    let along = clamp(dot(from_center, axis), 0.0, shadings[shading].axis_length);
+    let q = vec4f(from_center - axis * along, 1.0);
+    let n = vec3f(dot(shadings[shading].normals_x, q), dot(shadings[shading].normals_y, q), dot(shadings[shading].normals_z, q));
+    let unit = n * inverseSqrt(max(dot(n, n), 1e-30));
+    return mix(normal, unit, shadings[shading].amount);
+}
+
+fn sheen_coverage(look: u32, glance: Glance) -> f32 {
+    let turn = looks[look].sheen.turn;
+    let across = turn.x * frame.camera_right.xyz - turn.y * frame.camera_up.xyz;
+    let per_m = 1.0 / looks[look].sheen.spacing;
+    let x = dot(glance.p_x - glance.p_in_world, across);
+    let y = dot(glance.p_y - glance.p_in_world, across);
+    let width = max(per_m * length(vec2f(x, y)), 1e-5);
+    let s = per_m * (dot(glance.p_in_world, across) - looks[look].sheen.offset);
+    let first = looks[look].sheen.width;
+    let gap = looks[look].sheen.gap;
+    let second = looks[look].sheen.second;
+    let mean = saturate(first + second);
+    let detail = saturate(2.0 - 2.0 * width);
+    var covered = 0.0;
+    for (var i = -1; i <= 1; i++) {
+        let at = fract(s) + f32(i);
+        covered += part_inside(at, width, first) + part_inside(at - first - gap, width, second);
+    }
+    return mix(mean, saturate(covered), detail);
+}
+
+fn shone(shaded: Shaded, glance: Glance, color: vec4f) -> vec4f {
+    if (SPECULAR | RIM_LIGHT | SHEEN) {
+        let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
+        return with_shine(shaded.look, glance, color, shaded.key_reach, shown);
+    }
+    return color;
 }
 
 fn sign_not_zero(v: vec2f) -> vec2f {
@@ -1454,6 +1730,25 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn signed_axis(axis: vec3f) -> vec3f {
     return select(-axis, axis, dot(axis, vec3f(16.0, 4.0, 1.0)) > 0.0);
+}
+
+fn specular_coverage(look: u32, glance: Glance) -> f32 {
+    let scale = looks[look].specular.scale;
+    let turn = looks[look].specular.turn;
+    let translate = looks[look].specular.translate;
+    let split = looks[look].specular.split;
+    let square = looks[look].specular.square;
+    let n = looks[look].specular.exponent;
+    let b = looks[look].specular.threshold;
+    let here = changed_half(glance.half, scale, turn, translate, split, square);
+    let front = smoothstep(0.0, 0.05, glance.facing);
+    if ((looks[look].specular.flags & SHINE_GRADIENT) != 0u) {
+        return front * gradient_highlight(pow(here, n), b, looks[look].specular.gradient);
+    }
+    let x = changed_half(glance.half_x, scale, turn, translate, split, square) - here;
+    let y = changed_half(glance.half_y, scale, turn, translate, split, square) - here;
+    let edge = pow(b, 1.0 / n);
+    return front * saturate((here - edge) / max(length(vec2f(x, y)), 1e-5) + 0.5);
 }
 
 fn spline_slopes(f: f32) -> vec4f {
@@ -1504,11 +1799,11 @@ fn surface_coverage(in: Surface, front_facing: bool) -> vec4f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
 }
 
 fn surface_of(in: HatchedSurface) -> Surface {
-    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.line_width, in.draw, in.line_id);
+    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.marks, in.draw, in.line_id, in.face);
 }
 
 fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> f32 {
@@ -1535,12 +1830,39 @@ fn tone_color(look: u32, index: u32) -> RampColor {
     return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
 }
 
+fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
+    let softness = looks[look].tones[index].softness;
+    let weight = saturate((t - looks[look].tones[index].at) / max(max(softness, width), MIN_WIDTH) + 0.5);
+    return select(weight, weight * weight * (3.0 - 2.0 * weight), softness > width);
+}
+
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
 
 fn turned_by(way: vec2f, turn: vec2f) -> vec2f {
     return vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
+}
+
+fn under_ramp(look: u32, base: vec3f, t: f32, width: f32) -> vec3f {
+    if (PALETTE) {
+        if ((looks[look].flags & LOOK_SMOOTH_RAMP) == 0u) {
+            let first = tone_color(look, 0u);
+            var color = nearest_color(base * first.factor + first.added);
+            for (var i = 1u; i < looks[look].tone_count; i++) {
+                let weight = tone_weight(look, i, t, width);
+                if (weight > 0.0) {
+                    let tone = tone_color(look, i);
+                    color = mix(color, nearest_color(base * tone.factor + tone.added), weight);
+                }
+            }
+            return color;
+        }
+        let ramp = ramp_color(look, t, width);
+        return nearest_color(base * ramp.factor + ramp.added);
+    }
+    let ramp = ramp_color(look, t, width);
+    return base * ramp.factor + ramp.added;
 }
 
 fn unit(v: vec3f) -> vec3f {
@@ -1596,16 +1918,40 @@ fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
     return vec4f(mix(color.rgb, line.rgb, strength), mix(color.a, 1.0, strength));
 }
 
+fn with_shine(look: u32, glance: Glance, below: vec4f, reach: f32, shown: f32) -> vec4f {
+    var color = below;
+    if (SHEEN) {
+        if (looks[look].sheen.color.a > 0.0) {
+            let coverage = shown * sheen_coverage(look, glance);
+            color = laid_over(color, looks[look].sheen.color, looks[look].sheen.flags, coverage);
+        }
+    }
+    if (SPECULAR) {
+        if (looks[look].specular.color.a > 0.0) {
+            let coverage = shown * reach * specular_coverage(look, glance);
+            color = laid_over(color, looks[look].specular.color, looks[look].specular.flags, coverage);
+        }
+    }
+    if (RIM_LIGHT) {
+        if (looks[look].rim_light.color.a > 0.0) {
+            let coverage = shown * rim_coverage(look, glance);
+            color = laid_over(color, looks[look].rim_light.color, looks[look].rim_light.flags, coverage);
+        }
+    }
+    return color;
+}
+
 @fragment
 fn hatched_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let point = hatch_point(in);
     let surface = surface_of(in);
+    let glance = glance_of(surface, front_facing);
     let shaded = shade(surface, front_facing);
     let color = inked(shaded, point, in.draw);
     if (OUTPUT != OUTPUT_PICTURE) {
         return color;
     }
-    return with_rim(surface, shaded, color);
+    return with_rim(surface, shaded, shone(shaded, glance, color));
 }
 
 @fragment
@@ -1613,15 +1959,17 @@ fn hatched_highlight_fragment(in: HatchedSurface, @builtin(front_facing) front_f
     let point = hatch_point(in);
     let surface = surface_of(in);
     let coverage = surface_coverage(surface, front_facing);
+    let glance = glance_of(surface, front_facing);
     let shaded = shade(surface, front_facing);
-    return highlit(surface, front_facing, coverage, shaded, inked(shaded, point, in.draw));
+    return highlit(surface, front_facing, coverage, glance, shaded, inked(shaded, point, in.draw));
 }
 
 @fragment
 fn highlight_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
     let coverage = surface_coverage(in, front_facing);
+    let glance = glance_of(in, front_facing);
     let shaded = shade(in, front_facing);
-    return highlit(in, front_facing, coverage, shaded, shaded.color);
+    return highlit(in, front_facing, coverage, glance, shaded, shaded.color);
 }
 
 @fragment
@@ -1635,16 +1983,17 @@ fn hull_fragment(in: Hull) -> @location(0) vec4f {
 
 @fragment
 fn paint_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> @location(0) vec4f {
+    let glance = glance_of(in, front_facing);
     let shaded = shade(in, front_facing);
     if (OUTPUT != OUTPUT_PICTURE) {
         return shaded.color;
     }
-    return with_rim(in, shaded, shaded.color);
+    return with_rim(in, shaded, shone(shaded, glance, shaded.color));
 }
 
 @vertex
 fn hatched_vertex(in: VertexInput, rest: RestInput) -> HatchedSurface {
-    return hatched_from_vertex(in, rest, frame.paint_scale);
+    return hatched_from_surface(shaded_surface(in), rest);
 }
 
 @vertex
@@ -1675,10 +2024,14 @@ fn hull_vertex(in: VertexInput) -> Hull {
 
 @vertex
 fn paint_vertex(in: VertexInput) -> Surface {
-    return surface_from_vertex(in, frame.paint_scale);
+    return shaded_surface(in);
 }
 
 override BLENDS_NORMALS: bool = false;
+
+override DOTS: bool = false;
+
+override EDITED_SHADING: bool = false;
 
 override HAS_AXIS: bool = false;
 
@@ -1714,8 +2067,18 @@ override ON_PANORAMA: bool = false;
 
 override OUTPUT: u32 = 0u;
 
+override PALETTE: bool = false;
+
 override REPLACES: bool = false;
+
+override RIM_LIGHT: bool = false;
+
+override SHADE_PICTURES: bool = false;
 
 override SHADOWS: bool = false;
 
 override SHARE_PROXY: bool = false;
+
+override SHEEN: bool = false;
+
+override SPECULAR: bool = false;

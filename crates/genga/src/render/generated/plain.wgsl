@@ -70,9 +70,9 @@ struct Draw {
     alpha_cutoff: f32,
     line_width: f32,
     rest_scale: f32,
+    shading: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct Frame {
@@ -98,11 +98,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct Light {
@@ -144,6 +146,11 @@ struct MaterialSample {
     look: u32
 }
 
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
+}
+
 struct Rule {
     conditions: u32,
     id_tolerance: f32,
@@ -172,11 +179,13 @@ struct Surface {
     @location(5)
     color: vec4f,
     @location(6)
-    line_width: f32,
+    marks: vec2f,
     @location(7) @interpolate(flat)
     draw: u32,
     @location(8) @interpolate(flat)
-    line_id: u32
+    line_id: u32,
+    @location(9) @interpolate(flat)
+    face: vec4f
 }
 
 struct VertexInput {
@@ -338,7 +347,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, in.line.x, in.draw, in.line_id);
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {

@@ -61,9 +61,9 @@ struct Draw {
     alpha_cutoff: f32,
     line_width: f32,
     rest_scale: f32,
+    shading: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct Frame {
@@ -89,11 +89,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct LineSet {
@@ -116,6 +118,11 @@ struct LineSet {
 struct MaskSample {
     types: u32,
     strength: f32
+}
+
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
 }
 
 struct Quad {

@@ -116,11 +116,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct LineSet {
@@ -144,6 +146,11 @@ struct Meeting {
     meets: bool,
     at: f32,
     depth: f32
+}
+
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
 }
 
 struct Piece {

@@ -41,9 +41,9 @@ struct Draw {
     alpha_cutoff: f32,
     line_width: f32,
     rest_scale: f32,
+    shading: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct ShadowMap {

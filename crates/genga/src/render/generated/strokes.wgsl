@@ -135,11 +135,13 @@ struct Frame {
     flags: u32,
     line_set_count: u32,
     line_method: u32,
+    palette_count: u32,
+    dots_spacing: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32,
     line_sets: array<LineSet, 4>,
-    detect: Detect
+    detect: Detect,
+    dots_turns: array<vec4f, 2>,
+    palette: array<PaletteColor, 16>
 }
 
 struct Ink {
@@ -163,6 +165,11 @@ struct LineSet {
     wobble_seed: u32,
     depth_from: f32,
     reserved: u32
+}
+
+struct PaletteColor {
+    color: vec4f,
+    lab: vec4f
 }
 
 struct Piece {

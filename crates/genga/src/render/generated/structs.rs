@@ -132,9 +132,9 @@ pub(crate) struct Draw {
     pub(crate) alpha_cutoff: f32,
     pub(crate) line_width: f32,
     pub(crate) rest_scale: f32,
+    pub(crate) shading: u32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
     std::mem::size_of::< Draw > () == 144, "size of Draw does not match WGSL"
@@ -199,16 +199,16 @@ const _: () = assert!(
     "offset of Draw.rest_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Draw, reserved_0) == 132,
+    std::mem::offset_of!(Draw, shading) == 132,
+    "offset of Draw.shading does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Draw, reserved_0) == 136,
     "offset of Draw.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Draw, reserved_1) == 136,
+    std::mem::offset_of!(Draw, reserved_1) == 140,
     "offset of Draw.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Draw, reserved_2) == 140,
-    "offset of Draw.reserved_2 does not match WGSL"
 );
 pub(crate) const EDGE_FLAT: u32 = 268435456u32;
 pub(crate) const EDGE_HARD: u32 = 1073741824u32;
@@ -267,14 +267,16 @@ pub(crate) struct Frame {
     pub(crate) flags: u32,
     pub(crate) line_set_count: u32,
     pub(crate) line_method: u32,
+    pub(crate) palette_count: u32,
+    pub(crate) dots_spacing: f32,
     pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
     pub(crate) line_sets: [LineSet; 4],
     pub(crate) detect: Detect,
+    pub(crate) dots_turns: [glam::Vec4; 2],
+    pub(crate) palette: [PaletteColor; 16],
 }
 const _: () = assert!(
-    std::mem::size_of::< Frame > () == 608, "size of Frame does not match WGSL"
+    std::mem::size_of::< Frame > () == 1152, "size of Frame does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, clip_from_world) == 0,
@@ -364,16 +366,16 @@ const _: () = assert!(
     "offset of Frame.line_method does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_0) == 244,
+    std::mem::offset_of!(Frame, palette_count) == 244,
+    "offset of Frame.palette_count does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, dots_spacing) == 248,
+    "offset of Frame.dots_spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, reserved_0) == 252,
     "offset of Frame.reserved_0 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_1) == 248,
-    "offset of Frame.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Frame, reserved_2) == 252,
-    "offset of Frame.reserved_2 does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Frame, line_sets) == 256,
@@ -382,6 +384,14 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Frame, detect) == 576,
     "offset of Frame.detect does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, dots_turns) == 608,
+    "offset of Frame.dots_turns does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Frame, palette) == 640,
+    "offset of Frame.palette does not match WGSL"
 );
 pub(crate) const GLOW_LINES_THROUGH: u32 = 1u32;
 pub(crate) const GLOW_OVER: u32 = 2u32;
@@ -939,6 +949,9 @@ const _: () = assert!(
 pub(crate) struct Look {
     pub(crate) fixed_color: glam::Vec4,
     pub(crate) tones: [Tone; 8],
+    pub(crate) specular: Specular,
+    pub(crate) rim_light: RimLight,
+    pub(crate) sheen: Sheen,
     pub(crate) tone_count: u32,
     pub(crate) flags: u32,
     pub(crate) gain: f32,
@@ -950,11 +963,15 @@ pub(crate) struct Look {
     pub(crate) rim_softness: f32,
     pub(crate) hull_width_m: f32,
     pub(crate) shadow_tone: f32,
+    pub(crate) shade_strength: f32,
+    pub(crate) shade_source: u32,
     pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
     pub(crate) hatch: Hatch,
 }
 const _: () = assert!(
-    std::mem::size_of::< Look > () == 544, "size of Look does not match WGSL"
+    std::mem::size_of::< Look > () == 736, "size of Look does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Look, fixed_color) == 0,
@@ -964,53 +981,80 @@ const _: () = assert!(
     std::mem::offset_of!(Look, tones) == 16, "offset of Look.tones does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, tone_count) == 272,
+    std::mem::offset_of!(Look, specular) == 272,
+    "offset of Look.specular does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, rim_light) == 352,
+    "offset of Look.rim_light does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, sheen) == 400, "offset of Look.sheen does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, tone_count) == 448,
     "offset of Look.tone_count does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, flags) == 276, "offset of Look.flags does not match WGSL"
+    std::mem::offset_of!(Look, flags) == 452, "offset of Look.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, gain) == 280, "offset of Look.gain does not match WGSL"
+    std::mem::offset_of!(Look, gain) == 456, "offset of Look.gain does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, shade_bias) == 284,
+    std::mem::offset_of!(Look, shade_bias) == 460,
     "offset of Look.shade_bias does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, ramp_row) == 288,
+    std::mem::offset_of!(Look, ramp_row) == 464,
     "offset of Look.ramp_row does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, line_id) == 292,
+    std::mem::offset_of!(Look, line_id) == 468,
     "offset of Look.line_id does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, line_width) == 296,
+    std::mem::offset_of!(Look, line_width) == 472,
     "offset of Look.line_width does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, rim_threshold) == 300,
+    std::mem::offset_of!(Look, rim_threshold) == 476,
     "offset of Look.rim_threshold does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, rim_softness) == 304,
+    std::mem::offset_of!(Look, rim_softness) == 480,
     "offset of Look.rim_softness does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, hull_width_m) == 308,
+    std::mem::offset_of!(Look, hull_width_m) == 484,
     "offset of Look.hull_width_m does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, shadow_tone) == 312,
+    std::mem::offset_of!(Look, shadow_tone) == 488,
     "offset of Look.shadow_tone does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, reserved_0) == 316,
+    std::mem::offset_of!(Look, shade_strength) == 492,
+    "offset of Look.shade_strength does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, shade_source) == 496,
+    "offset of Look.shade_source does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_0) == 500,
     "offset of Look.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Look, hatch) == 320, "offset of Look.hatch does not match WGSL"
+    std::mem::offset_of!(Look, reserved_1) == 504,
+    "offset of Look.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, reserved_2) == 508,
+    "offset of Look.reserved_2 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Look, hatch) == 512, "offset of Look.hatch does not match WGSL"
 );
 pub(crate) const MASK_CREASE_SHIFT: u32 = 16u32;
 pub(crate) const MASK_SILHOUETTE_SHIFT: u32 = 8u32;
@@ -1028,6 +1072,24 @@ pub(crate) const PIECE_COVERED_B: u32 = 512u32;
 pub(crate) const PIECE_MEETS_A: u32 = 4096u32;
 pub(crate) const PIECE_MEETS_B: u32 = 8192u32;
 pub(crate) const PIECE_SEAM: u32 = 2048u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct PaletteColor {
+    pub(crate) color: glam::Vec4,
+    pub(crate) lab: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< PaletteColor > () == 32,
+    "size of PaletteColor does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(PaletteColor, color) == 0,
+    "offset of PaletteColor.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(PaletteColor, lab) == 16,
+    "offset of PaletteColor.lab does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Piece {
@@ -1217,6 +1279,48 @@ const _: () = assert!(
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct RimLight {
+    pub(crate) color: glam::Vec4,
+    pub(crate) direction: glam::Vec3,
+    pub(crate) threshold: f32,
+    pub(crate) softness: f32,
+    pub(crate) flags: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< RimLight > () == 48, "size of RimLight does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, color) == 0,
+    "offset of RimLight.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, direction) == 16,
+    "offset of RimLight.direction does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, threshold) == 28,
+    "offset of RimLight.threshold does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, softness) == 32,
+    "offset of RimLight.softness does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, flags) == 36,
+    "offset of RimLight.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, reserved_0) == 40,
+    "offset of RimLight.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RimLight, reserved_1) == 44,
+    "offset of RimLight.reserved_1 does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Rule {
     pub(crate) conditions: u32,
     pub(crate) id_tolerance: f32,
@@ -1271,6 +1375,58 @@ pub(crate) const SET_COLOR_BASE: u32 = 2u32;
 pub(crate) const SET_COLOR_LIGHT: u32 = 4u32;
 pub(crate) const SET_CURVES: u32 = 256u32;
 pub(crate) const SET_HIDDEN: u32 = 1u32;
+pub(crate) const SHADE_FROM_NOTHING: u32 = 4u32;
+pub(crate) const SHADE_FROM_PICTURE: u32 = 5u32;
+pub(crate) const SHINE_GRADIENT: u32 = 1u32;
+pub(crate) const SHINE_PAPER: u32 = 4u32;
+pub(crate) const SHINE_REPLACE: u32 = 2u32;
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Shading {
+    pub(crate) center: glam::Vec3,
+    pub(crate) amount: f32,
+    pub(crate) axis: glam::Vec3,
+    pub(crate) axis_length: f32,
+    pub(crate) normals_x: glam::Vec4,
+    pub(crate) normals_y: glam::Vec4,
+    pub(crate) normals_z: glam::Vec4,
+    pub(crate) face: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< Shading > () == 96, "size of Shading does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, center) == 0,
+    "offset of Shading.center does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, amount) == 12,
+    "offset of Shading.amount does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, axis) == 16,
+    "offset of Shading.axis does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, axis_length) == 28,
+    "offset of Shading.axis_length does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_x) == 32,
+    "offset of Shading.normals_x does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_y) == 48,
+    "offset of Shading.normals_y does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normals_z) == 64,
+    "offset of Shading.normals_z does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, face) == 80,
+    "offset of Shading.face does not match WGSL"
+);
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct ShadowMap {
@@ -1307,6 +1463,120 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(ShadowMap, is_perspective) == 140,
     "offset of ShadowMap.is_perspective does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Sheen {
+    pub(crate) color: glam::Vec4,
+    pub(crate) turn: glam::Vec2,
+    pub(crate) spacing: f32,
+    pub(crate) offset: f32,
+    pub(crate) width: f32,
+    pub(crate) second: f32,
+    pub(crate) gap: f32,
+    pub(crate) flags: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Sheen > () == 48, "size of Sheen does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, color) == 0, "offset of Sheen.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, turn) == 16, "offset of Sheen.turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, spacing) == 24,
+    "offset of Sheen.spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, offset) == 28,
+    "offset of Sheen.offset does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, width) == 32, "offset of Sheen.width does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, second) == 36,
+    "offset of Sheen.second does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, gap) == 40, "offset of Sheen.gap does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Sheen, flags) == 44, "offset of Sheen.flags does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct Specular {
+    pub(crate) color: glam::Vec4,
+    pub(crate) translate: glam::Vec2,
+    pub(crate) scale: glam::Vec2,
+    pub(crate) split: glam::Vec2,
+    pub(crate) turn: glam::Vec2,
+    pub(crate) exponent: f32,
+    pub(crate) threshold: f32,
+    pub(crate) gradient: f32,
+    pub(crate) square: f32,
+    pub(crate) flags: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< Specular > () == 80, "size of Specular does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, color) == 0,
+    "offset of Specular.color does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, translate) == 16,
+    "offset of Specular.translate does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, scale) == 24,
+    "offset of Specular.scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, split) == 32,
+    "offset of Specular.split does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, turn) == 40,
+    "offset of Specular.turn does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, exponent) == 48,
+    "offset of Specular.exponent does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, threshold) == 52,
+    "offset of Specular.threshold does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, gradient) == 56,
+    "offset of Specular.gradient does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, square) == 60,
+    "offset of Specular.square does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, flags) == 64,
+    "offset of Specular.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_0) == 68,
+    "offset of Specular.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_1) == 72,
+    "offset of Specular.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Specular, reserved_2) == 76,
+    "offset of Specular.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -8,7 +8,7 @@ use crate::render::gpu::timing::Timer;
 use crate::render::{
     frame::Aim,
     layouts::Layouts,
-    prepare::{DrawItem, Prepared},
+    prepare::{DrawItem, Prepared, shine::Features},
     targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
@@ -83,6 +83,11 @@ impl PaintPass {
         let samples = paint_samples(targets.size.paint_scale);
         aim.set_viewport(&mut pass, targets.size.paint_scale as f32);
         let [opaque, blended] = sorted_items(prepared, aim.eye);
+        let features = Features::of(&prepared.style);
+        let features = match output {
+            PaintOutput::All | PaintOutput::Highlights => features,
+            _ => features.without_shine(),
+        };
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -96,7 +101,16 @@ impl PaintPass {
                 PaintOutput::Shadow => 5,
                 PaintOutput::Ink => 6,
             };
-            Variant { highlights, hatch, shadows, output, ..Variant::of(item, samples) }
+            let edited_shading = prepared.shadings.any();
+            Variant {
+                highlights,
+                hatch,
+                shadows,
+                output,
+                features,
+                edited_shading,
+                ..Variant::of(item, samples)
+            }
         };
         let items = opaque.iter().map(|&(i, item)| (i, item, variant(item)));
         draw_items(device, &mut pass, prepared, &self.surfaces, items);

@@ -9,7 +9,7 @@ use std::{
 use crate::render::generated::{RestVertex, WorldVertex};
 use crate::render::gpu::bindings::pipeline_layout;
 use crate::render::layouts::Layouts;
-use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes};
+use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes, shine::Features};
 use crate::render::targets::DEPTH_FORMAT;
 
 /// What differs between the pipelines of one pass.
@@ -31,6 +31,10 @@ pub(crate) struct Variant {
     pub(crate) output: u32,
     /// With ink over the ramp; `None` for a pipeline that knows nothing of it.
     pub(crate) hatch: Option<HatchVariant>,
+    /// Comic highlights and the print's colours.
+    pub(crate) features: Features,
+    /// With other normals for shading.
+    pub(crate) edited_shading: bool,
 }
 
 /// What a pipeline with ink is specialised for; see `shaders/shading/hatch.wesl`.
@@ -77,6 +81,8 @@ impl Variant {
             shadows: false,
             output: 0,
             hatch: None,
+            features: Features::default(),
+            edited_shading: false,
         }
     }
 }
@@ -165,8 +171,15 @@ impl SurfacePipelines {
         let highlights = variant.highlights.unwrap_or_default();
         let yes = |on: bool| f64::from(u8::from(on));
         let shading = [
-            ("SHADOWS", f64::from(u8::from(variant.shadows))),
+            ("SHADOWS", yes(variant.shadows)),
             ("OUTPUT", f64::from(variant.output)),
+            ("SPECULAR", yes(variant.features.specular)),
+            ("RIM_LIGHT", yes(variant.features.rim_light)),
+            ("SHEEN", yes(variant.features.sheen)),
+            ("PALETTE", yes(variant.features.palette)),
+            ("DOTS", yes(variant.features.dots)),
+            ("SHADE_PICTURES", yes(variant.features.shade_pictures)),
+            ("EDITED_SHADING", yes(variant.edited_shading)),
         ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
@@ -206,7 +219,14 @@ impl SurfacePipelines {
             vertex: wgpu::VertexState {
                 module: &self.module,
                 entry_point: Some(vertex_entry),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: if variant.edited_shading {
+                        &[("EDITED_SHADING", 1.0)]
+                    } else {
+                        &[]
+                    },
+                    ..Default::default()
+                },
                 buffers: &VERTEX_BUFFERS[..if hatched.is_some() { 3 } else { 2 }],
             },
             primitive: wgpu::PrimitiveState {

@@ -17,7 +17,7 @@ pub(crate) struct VertexAttributes {
     pub(crate) uv1: [f32; 2],
     /// Linear unorm16 RGBA: 8 bits would show in dark tones.
     pub(crate) color: [u16; 4],
-    /// User line id of the triangles that begin at this vertex.
+    /// User line id of the triangles that begin at this vertex; then its shade bias, a half float.
     pub(crate) line_id: u32,
 }
 
@@ -162,7 +162,8 @@ impl GeometryBuilder {
                 uv0: uv(uv_sets[0]),
                 uv1: uv(uv_sets[1]),
                 color: color.to_array().map(|c| (c.clamp(0.0, 1.0) * 65535.0).round() as u16),
-                line_id: primitive.line_ids.get(v).map_or(0, |&id| id.min(0xffff)),
+                line_id: primitive.line_ids.get(v).map_or(0, |&id| id.min(0xffff))
+                    | half(primitive.shade_biases.get(v).map_or(0.0, |b| b.clamp(-1.0, 1.0))) << 16,
             });
         }
         let rest_place = self.rest.add(&rest);

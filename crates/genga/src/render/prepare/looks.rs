@@ -6,13 +6,14 @@ use std::{collections::HashMap, sync::Arc};
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::shine;
 use crate::render::generated::{self as gpu, Look, Rule, Tone};
 use crate::render::passes::surface::HatchVariant;
 use crate::scene::Image;
 use crate::srgb::linear_from_srgb;
 use crate::style::{
     BaseColor, BlendSpace, Color, Hatch, HatchDirection, HatchMapping, HatchPattern, Lines,
-    Override, Paint, Ramp, Style, ToneBlend,
+    Override, Paint, Ramp, ShadeSource, Style, ToneBlend,
 };
 
 /// Most per-pixel selectors that can apply to one object and material: each doubles its looks.
@@ -28,6 +29,8 @@ pub(crate) struct LookRange {
     pub(crate) rule_count: u32,
     /// Whether it casts shadows.
     pub(crate) casts_shadow: bool,
+    /// Picture of the shade map.
+    pub(crate) shade_image: Option<Arc<Image>>,
     /// Picture of the id-texture selectors, if there are any.
     pub(crate) id_image: Option<Arc<Image>>,
     pub(crate) hatch: HatchRange,
@@ -196,12 +199,17 @@ impl<'a> Looks<'a> {
             self.looks.push(look);
         }
         let by_name = overrides.iter().filter(|o| !o.select.is_per_pixel());
+        // One picture a surface: that of the last override by name, or the style's.
+        let mut maps = by_name.clone().filter_map(|o| o.paint.shade_map.as_ref());
+        let map = maps.next_back().or(style.paint.shade_map.as_ref());
+        let shade_image = map.and_then(|map| map.image.clone());
         let casts_shadow = by_name.filter_map(|o| o.paint.shadow.cast).next_back().unwrap_or(true);
         LookRange {
             look_first,
             rule_first,
             rule_count: per_pixel.len() as u32,
             casts_shadow,
+            shade_image,
             id_image,
             hatch,
         }
@@ -217,6 +225,10 @@ impl<'a> Looks<'a> {
                 look.flags |= gpu::LOOK_BASE_FIXED;
                 look.fixed_color = Vec4::from(color.to_array());
             }
+            BaseColor::Paper => {
+                look.flags |= gpu::LOOK_BASE_FIXED;
+                look.fixed_color = Vec4::from(self.style.background.color.to_array());
+            }
         }
         if paint.ramp.smooth {
             look.flags |= gpu::LOOK_SMOOTH_RAMP;
@@ -230,6 +242,28 @@ impl<'a> Looks<'a> {
         look.tones[..tones.len()].copy_from_slice(&tones);
         look.gain = paint.ramp.gain;
         look.shade_bias = paint.shade_bias;
+        look.shade_source = gpu::SHADE_FROM_NOTHING;
+        if let Some(map) = &paint.shade_map {
+            look.shade_strength = map.strength;
+            look.shade_source = match map.from {
+                ShadeSource::VertexRed => 0,
+                ShadeSource::VertexGreen => 1,
+                ShadeSource::VertexBlue => 2,
+                ShadeSource::VertexAlpha => 3,
+                ShadeSource::Picture if map.image.is_some() => gpu::SHADE_FROM_PICTURE,
+                ShadeSource::Picture => gpu::SHADE_FROM_NOTHING,
+            };
+        }
+        let paper = self.style.background.color;
+        if let Some(specular) = &paint.specular {
+            look.specular = shine::specular(specular, paper, blend);
+        }
+        if let Some(rim_light) = &paint.rim_light {
+            look.rim_light = shine::rim_light(rim_light, paper, blend);
+        }
+        if let Some(sheen) = &paint.sheen {
+            look.sheen = shine::sheen(sheen, paper, blend);
+        }
         look.shadow_tone = paint.shadow.tone;
         if !paint.shadow.receive {
             look.flags |= gpu::LOOK_UNSHADOWED;
@@ -303,6 +337,12 @@ fn apply(o: &Override, paint: &mut Paint, lines: &mut LineLook) {
     if let Some(bias) = o.paint.shade_bias {
         paint.shade_bias = bias;
     }
+    if let Some(map) = &o.paint.shade_map {
+        paint.shade_map = Some(map.clone());
+    }
+    paint.specular = o.paint.specular.or(paint.specular);
+    paint.rim_light = o.paint.rim_light.or(paint.rim_light);
+    paint.sheen = o.paint.sheen.or(paint.sheen);
     if let Some(tone) = o.paint.shadow.tone {
         paint.shadow.tone = tone;
     }

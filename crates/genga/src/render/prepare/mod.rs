@@ -6,7 +6,9 @@ pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;
 pub(crate) mod pages;
+pub(crate) mod shading;
 pub(crate) mod shadows;
+pub(crate) mod shine;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
@@ -23,6 +25,7 @@ use self::{
     lights::{MAX_LIGHTS, PlacedLight},
     looks::{LookRange, Looks, RAMP_PICTURE_WIDTH},
     pages::{PAGE_BYTES, Place},
+    shading::{Shadings, shading_of},
     shadows::Shadows,
     strokes::StrokeData,
     textures::Textures,
@@ -51,6 +54,7 @@ pub struct Prepared {
     pub(crate) surface_group: wgpu::BindGroup,
     pub(crate) lights: Vec<PlacedLight>,
     pub(crate) shadows: Shadows,
+    pub(crate) shadings: Shadings,
     pub(crate) deform: DeformData,
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
@@ -198,6 +202,7 @@ impl Prepared {
             *place = pose.world_from_node[*node].translation.into();
         }
         self.highlights.set_pose(pose);
+        self.shadings.set_pose(pose);
         self.bounds = scene.bounds(pose);
     }
 }
@@ -218,8 +223,9 @@ struct Builder<'a> {
     /// By primitive.
     chunks: HashMap<ChunkKey, Vec<Vec<Chunk>>>,
     materials: Vec<wgpu::BindGroup>,
-    /// By material, picture of ids and picture of hatching.
-    material_of: HashMap<[Option<usize>; 3], usize>,
+    /// By the material, then the addresses of its pictures of ids, hatching and shade.
+    material_of: HashMap<[Option<usize>; 4], usize>,
+    shade_sampler: wgpu::Sampler,
     draws: Vec<DrawItem>,
     draw_values: Vec<Draw>,
     deforms: Vec<(Deform, [usize; 3])>,
@@ -250,6 +256,14 @@ impl<'a> Builder<'a> {
             chunks: HashMap::new(),
             materials: Vec::new(),
             material_of: HashMap::new(),
+            shade_sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("shade"),
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
             draws: Vec::new(),
             draw_values: Vec::new(),
             deforms: Vec::new(),
@@ -328,7 +342,8 @@ impl<'a> Builder<'a> {
             let matrix_first = deform.matrix_first + if is_skinned { 0 } else { joint_count };
             let chunks = chunks_of[p].clone();
             let look = ranges[p].clone();
-            let group = self.material_group(primitive.material, material, &look);
+            let shading = shading_of(scene, index, &node.name, &material.name);
+            let group = self.material_group(primitive.material, material, &look, shading);
             let highlights = self.highlights.of(index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
@@ -345,8 +360,9 @@ impl<'a> Builder<'a> {
                     },
                     [chunk.rest.page, world.page, chunk.morph.page],
                 ));
-                let values =
+                let mut values =
                     self.draw_values(index, primitive.material, &node.name, material, &look);
+                values.shading = shading.map_or(0, |shading| shading as u32 + 1);
                 self.draw_values.push(values);
                 self.draws.push(DrawItem {
                     world,
@@ -415,9 +431,9 @@ impl<'a> Builder<'a> {
                 -1.0
             },
             rest_scale: 1.0,
+            shading: 0,
             reserved_0: 0,
             reserved_1: 0,
-            reserved_2: 0,
         }
     }
 
@@ -426,9 +442,12 @@ impl<'a> Builder<'a> {
         index: Option<usize>,
         material: &Material,
         look: &LookRange,
+        shading: Option<usize>,
     ) -> usize {
-        let of = |image: &Option<Arc<Image>>| image.as_ref().map(|i| Arc::as_ptr(i) as usize);
-        let key = [index, of(&look.id_image), of(&look.hatch.image)];
+        let shade = Shadings::picture(self.scene, shading).or(look.shade_image.as_ref());
+        let pointer = |image: Option<&Arc<Image>>| image.map(|image| Arc::as_ptr(image) as usize);
+        let [id, hatch] = [look.id_image.as_ref(), look.hatch.image.as_ref()];
+        let key = [index, pointer(id), pointer(hatch), pointer(shade)];
         if let Some(&group) = self.material_of.get(&key) {
             return group;
         }
@@ -437,6 +456,7 @@ impl<'a> Builder<'a> {
         let id = self.textures.style_image(look.id_image.as_ref());
         let hatch = self.textures.style_image(look.hatch.image.as_ref());
         let hatch_sampler = self.textures.sampler(Sampler::default());
+        let shade = self.textures.style_image(shade);
         use wgpu::BindingResource as R;
         let group = bindings::group(
             self.device,
@@ -450,6 +470,8 @@ impl<'a> Builder<'a> {
                 (4, R::TextureView(&id)),
                 (5, R::TextureView(&hatch)),
                 (6, R::Sampler(&hatch_sampler)),
+                (7, R::TextureView(&shade)),
+                (8, R::Sampler(&self.shade_sampler)),
             ],
         );
         self.materials.push(group);
@@ -492,6 +514,7 @@ impl<'a> Builder<'a> {
         let wanted = shadows::maps_needed(self.scene, pose, self.style);
         let resolution = self.style.paint.shadow.resolution;
         let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
+        let shadings = Shadings::new(device, queue, self.scene);
         let surface_group = bindings::group(
             device,
             "surfaces",
@@ -506,6 +529,7 @@ impl<'a> Builder<'a> {
                 (6, shadows.values.as_entire_binding()),
                 (7, wgpu::BindingResource::TextureView(&shadows.depths)),
                 (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
+                (9, shadings.values.as_entire_binding()),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -527,6 +551,16 @@ impl<'a> Builder<'a> {
                  than {}: the weaker lights cast no shadows",
                 shadows::MAX_MAPS
             ));
+        }
+        for (i, shading) in self.scene.shadings.iter().enumerate() {
+            let number = i as u32 + 1;
+            if !self.draw_values.iter().any(|draw| draw.shading == number) {
+                let what = if shading.face_shadow.is_some() { "face shadow" } else { "proxy" };
+                warnings.push(format!(
+                    "shading {i} ({what}) lies on no surface: no object and material has such names, or \
+                     a later one has them all"
+                ));
+            }
         }
         let curves = |set: &LineSet| -> f32 {
             strokes::curves(set).into_iter().flatten().map(style::Curve::largest).product()
@@ -560,6 +594,7 @@ impl<'a> Builder<'a> {
             surface_group,
             lights,
             shadows,
+            shadings,
             deform,
             strokes,
             highlights,

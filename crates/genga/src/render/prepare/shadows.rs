@@ -157,8 +157,8 @@ impl Shadows {
     }
 }
 
-/// Texels of a map of all that is in view. Between one and two pixels' worth of texels are smoothed
-/// to an edge, so texels much smaller than pixels would leave it jagged.
+/// Texels of a map of all that is in view. They are a little smaller than pixels: a few of them are
+/// smoothed to an edge, and where those are less than a pixel, the edge is not in its place.
 fn used_texels(view: &View) -> u32 {
     let longest = view.size[0].max(view.size[1]).max(1) * view.supersample.max(1);
     longest.next_power_of_two().max(256)

@@ -90,7 +90,7 @@ impl Proxy {
         }
     }
 
-    pub(super) fn validate(&self) -> Result<(), String> {
+    pub(in crate::scene) fn validate(&self) -> Result<(), String> {
         let vectors: [Vec3; 2] = match self {
             Self::Sphere { center } => [*center; 2],
             Self::Ellipsoid { center, radii, rotation } => {

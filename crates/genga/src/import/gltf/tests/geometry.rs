@@ -182,6 +182,18 @@ fn line_widths_are_read_and_repaired() {
 }
 
 #[test]
+fn shade_biases_and_thresholds_are_one_bias() {
+    let mut glb = Glb::triangle();
+    let biases = glb.floats("SCALAR", &[0.25, f32::NAN, -3.0]);
+    let thresholds = glb.floats("SCALAR", &[0.5, 0.25, 0.5]);
+    let attributes = &mut glb.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["_SHADE_THRESHOLD"] = json!(thresholds);
+    assert_eq!(glb.primitive().shade_biases, [0.0, 0.25, 0.0]);
+    glb.json["meshes"][0]["primitives"][0]["attributes"]["_SHADE_BIAS"] = json!(biases);
+    assert_eq!(glb.primitive().shade_biases, [0.25, 0.25, -1.0]);
+}
+
+#[test]
 fn missing_normals_are_smooth_over_all_primitives_of_the_mesh() {
     let mut glb = Glb::new();
     // Two faces of a ridge along z, each a primitive of its own.
