@@ -13,7 +13,7 @@ use crate::highlights::{
     Random, bare_style, bumpy_ball, covered, free_place, lit_scene, overlap, paint_times,
     panorama_place, put_everywhere,
 };
-use crate::scenes::{model, orbit_view, root};
+use crate::scenes::{model, orbit_view, root, style};
 use crate::{draw_layers, perspective_view};
 
 /// What is reported: whether it holds, and what is wrong if it does not.
@@ -118,6 +118,37 @@ pub fn places(check: Check<'_>) {
         check(gamma < 1.0 || same >= 0.9, format!("γ = 1 keeps only {same} of the shape"));
         check(gamma > 0.0 || same < 0.9, format!("γ = 0 keeps {same} of the shape"));
     }
+    for gamma in [0.0, 1.0] {
+        let same = overlap_on_head(gamma);
+        println!(
+            "  γ = {gamma}: overlap of a star on the head's hair with one on a ball {same:.3}"
+        );
+        check((same >= 0.9) == (gamma == 1.0), format!("γ = {gamma} keeps {same} on the head"));
+    }
+}
+
+/// How much of a star on the head's hair is where it is on a ball as large, for a part γ of the
+/// ball's normals.
+#[must_use]
+pub fn overlap_on_head(gamma: f32) -> f64 {
+    let center = Vec3::new(0.0, 0.26, -0.02);
+    let head = head_with(Highlight { gamma, ..star() });
+    let ball = Scene {
+        highlights: vec![star()],
+        ..lit_scene(shapes::uv_sphere(96, 48, 0.145), Vec3::ONE, Vec::new())
+    };
+    let style = style("[lines]\nmethod = \"none\"\n[light]\nreplace_model_lights = true");
+    let drawn = |scene: &Scene, middle: Vec3| {
+        let eye = middle + Vec3::new(0.15, 0.55, 0.75);
+        let camera = genga::render::ViewCamera {
+            world_from_camera: glam::Affine3A::look_at_rh(eye, middle, Vec3::Y).inverse(),
+            projection: genga::scene::Projection::Perspective { fov_y: 0.4 },
+            near: 0.05,
+        };
+        let view = View { supersample: 1, ..View::new(camera, [320, 320]) };
+        covered(&draw_layers(scene, &style, &view, &[genga::render::LayerKind::Highlight]))
+    };
+    overlap(&drawn(&head, center), &drawn(&ball, Vec3::ZERO))
 }
 
 /// What four highlights add to the paint pass.

@@ -235,7 +235,7 @@ fn errors_name_the_place_and_the_remedy() {
         ),
         (
             "version = 1\n[[light]]\ntype = 'spto'",
-            "3:8: 'type' must be \"directional\", \"point\" or \"spot\", not \"spto\"",
+            "3:8: 'type' must be \"directional\", \"point\", \"spot\" or \"sky\", not \"spto\"",
         ),
         ("version = 1\n[[light]]\ntype = 'point'", "2:1: 'light' must have a 'position'"),
         (
