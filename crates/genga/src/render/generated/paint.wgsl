@@ -77,6 +77,8 @@ var repeated: sampler;
 
 const AXES = array<vec3f, 6>(vec3f(1.0, 0.0, 0.0), vec3f(0.70710678, 0.70710678, 0.0), vec3f(0.57735027, 0.57735027, 0.57735027), vec3f(0.89442719, 0.4472136, 0.0), vec3f(0.81649658, 0.40824829, 0.40824829), vec3f(0.66666667, 0.66666667, 0.33333333));
 
+const BLACK: f32 = 1.3;
+
 const BORDER: f32 = 0.03;
 
 const CLEARANCE: f32 = 4.0;
@@ -109,6 +111,8 @@ const GRAZING: f32 = 0.35;
 
 const HATCH_BY_LIGHT: u32 = 1u;
 
+const HATCH_CROSS: u32 = 2u;
+
 const HATCH_DOTS: u32 = 6u;
 
 const HATCH_FIXED: u32 = 2u;
@@ -124,6 +128,8 @@ const HATCH_PENCIL: u32 = 5u;
 const HATCH_SOLID: u32 = 3u;
 
 const HATCH_STIPPLE: u32 = 4u;
+
+const HATCH_STROKES: u32 = 1u;
 
 const HIGHLIGHT_IN_LIGHT: u32 = 4u;
 
@@ -893,31 +899,11 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
     }
     var ink = 0.0;
     if (HATCH_HAS_STROKES) {
-        let cross_turn = looks[look].hatch.cross_turn;
-        var crossed = 0.0;
-        if (HATCH_HAS_CROSS) {
-            crossed = 0.5 * smoothstep(0.0, 0.12, looks[look].hatch.cross_below - lum);
-        }
-        if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
-            let at = frames(look, point);
-            ink = surface_strokes(pen, at, point.rest, 1.0 - crossed, 0u);
-            if (HATCH_HAS_CROSS) {
-                let way = Frames(at.along * cross_turn.x + at.across * cross_turn.y, at.across * cross_turn.x - at.along * cross_turn.y, at.right, at.up);
-                let over = surface_strokes(pen, way, point.rest, crossed, 1374496523u);
-                ink = 1.0 - (1.0 - ink) * (1.0 - over);
-            }
-        }
-        if (HATCH_HAS_PLANE && looks[look].hatch.mapping != HATCH_ON_SURFACE) {
-            let on_uv = looks[look].hatch.mapping == HATCH_ON_UV;
-            let p = select(point.pixel, point.uv, on_uv);
-            let dx = select(vec2f(1.0, 0.0), point.uv_dx, on_uv);
-            let dy = select(vec2f(0.0, 1.0), point.uv_dy, on_uv);
-            let way = looks[look].hatch.turn.xy * vec2f(1.0, -1.0);
-            ink = flat_strokes(pen, p, dx, dy, way, 1.0 - crossed, 0u);
-            if (HATCH_HAS_CROSS) {
-                let over = flat_strokes(pen, p, dx, dy, turned_by(way, cross_turn.xy * vec2f(1.0, -1.0)), crossed, 1374496523u);
-                ink = 1.0 - (1.0 - ink) * (1.0 - over);
-            }
+        let is_stroked = pattern == HATCH_STROKES || pattern == HATCH_CROSS || pattern == HATCH_PENCIL;
+        ink = select(0.0, 1.0, is_stroked && darkness >= BLACK);
+        let runs = select(0u, 1u, is_stroked && darkness > 0.0 && darkness < BLACK);
+        for (var run = 0u; run < runs; run++) {
+            ink = stroke_ink(look, pen, lum, point);
         }
     }
     if ((HATCH_HAS_STIPPLE || HATCH_HAS_IMAGE) && (pattern == HATCH_STIPPLE || pattern == HATCH_IMAGE)) {
@@ -1767,6 +1753,37 @@ fn stroke_coverage(d: f32, half_width: f32, texel: f32) -> f32 {
     return (clamp(abs(d) + half_width, -r, r) - clamp(abs(d) - half_width, -r, r)) / texel;
 }
 
+fn stroke_ink(look: u32, pen: Pen, lum: f32, point: HatchPoint) -> f32 {
+    var ink = 0.0;
+    let cross_turn = looks[look].hatch.cross_turn;
+    var crossed = 0.0;
+    if (HATCH_HAS_CROSS && looks[look].hatch.pattern == HATCH_CROSS) {
+        crossed = 0.5 * smoothstep(0.0, 0.12, looks[look].hatch.cross_below - lum);
+    }
+    if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
+        let at = frames(look, point);
+        ink = surface_strokes(pen, at, point.rest, 1.0 - crossed, 0u);
+        if (HATCH_HAS_CROSS) {
+            let way = Frames(at.along * cross_turn.x + at.across * cross_turn.y, at.across * cross_turn.x - at.along * cross_turn.y, at.right, at.up);
+            let over = surface_strokes(pen, way, point.rest, crossed, 1374496523u);
+            ink = 1.0 - (1.0 - ink) * (1.0 - over);
+        }
+    }
+    if (HATCH_HAS_PLANE && looks[look].hatch.mapping != HATCH_ON_SURFACE) {
+        let on_uv = looks[look].hatch.mapping == HATCH_ON_UV;
+        let p = select(point.pixel, point.uv, on_uv);
+        let dx = select(vec2f(1.0, 0.0), point.uv_dx, on_uv);
+        let dy = select(vec2f(0.0, 1.0), point.uv_dy, on_uv);
+        let way = looks[look].hatch.turn.xy * vec2f(1.0, -1.0);
+        ink = flat_strokes(pen, p, dx, dy, way, 1.0 - crossed, 0u);
+        if (HATCH_HAS_CROSS) {
+            let over = flat_strokes(pen, p, dx, dy, turned_by(way, cross_turn.xy * vec2f(1.0, -1.0)), crossed, 1374496523u);
+            ink = 1.0 - (1.0 - ink) * (1.0 - over);
+        }
+    }
+    return ink;
+}
+
 fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f, salt: u32) -> f32 {
     let lines = octave(across, slope * pen.spacing);
     let seed = pen.seed ^ salt;
@@ -1810,9 +1827,15 @@ fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> 
     let axes = nearest_axes(at.across);
     let lead = 0.5 * axes.lead / BORDER;
     let jitter = 0.25 * pen.irregularity;
-    let first = plane_strokes(pen, at, rest, axes.best, share * vec2f(0.5 + lead, jitter), salt);
-    let second = plane_strokes(pen, at, rest, axes.second, share * vec2f(0.5 - lead, jitter), salt);
-    return 1.0 - (1.0 - first) * (1.0 - second);
+    let parts = share * vec2f(0.5 + lead, 0.5 - lead);
+    let count = select(1u, 2u, parts.y > -share * jitter);
+    var open = 1.0;
+    for (var i = 0u; i < select(0u, count, share > 0.0); i++) {
+        let axis = select(axes.best, axes.second, i == 1u);
+        let part = select(parts.x, parts.y, i == 1u);
+        open *= 1.0 - plane_strokes(pen, at, rest, axis, vec2f(part, share * jitter), salt);
+    }
+    return 1.0 - open;
 }
 
 fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {

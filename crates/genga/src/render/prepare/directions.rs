@@ -329,3 +329,31 @@ fn bone_direction(scene: &Scene, skin: usize, primitive: &Primitive, vertex: usi
     }
     .normalize_or_zero()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+
+    #[test]
+    fn strokes_run_round_a_cylinder_and_along_what_is_painted() {
+        let mut primitive = shapes::cylinder(48, 0.3, 2.0);
+        let mesh =
+            |primitive: &Primitive| Mesh { primitives: vec![primitive.clone()], ..Mesh::default() };
+        let scene = Scene::default();
+        let on_side = |p: &Primitive, v: usize| p.normals[v].y.abs() < 0.01;
+        let sources = [Some(Source::Curvature)];
+        let round = of_primitives(&scene, &mesh(&primitive), &sources).remove(0);
+        for v in (0..round.len()).filter(|&v| on_side(&primitive, v)) {
+            assert!((round[v].length() - 1.0).abs() < 1e-4);
+            assert!(round[v].y.abs() < 0.5, "{v}: {}", round[v]);
+        }
+        primitive.hatch_directions = vec![Vec3::Y * 3.0; primitive.positions.len()];
+        let sources = [Some(Source::Painted)];
+        let painted = of_primitives(&scene, &mesh(&primitive), &sources).remove(0);
+        for v in (0..painted.len()).filter(|&v| on_side(&primitive, v)) {
+            assert!(painted[v].y.abs() > 0.5, "{v}: {}", painted[v]);
+        }
+        assert!(of_primitives(&scene, &mesh(&primitive), &[None]).remove(0).is_empty());
+    }
+}
