@@ -557,7 +557,9 @@ struct Shaded {
     key_reach: f32,
     rim: f32,
     rim_width: f32,
-    own_tone: f32
+    own_tone: f32,
+    in_light: f32,
+    look_flags: u32
 }
 
 struct Shading {
@@ -679,12 +681,6 @@ fn axis_along(at: Frames, axis: vec3f) -> vec3f {
 
 fn axis_side(axis: vec3f) -> vec3f {
     return unit(cross(axis, select(vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0), abs(axis.y) > abs(axis.z))));
-}
-
-fn brightest_tone(look: u32, t: f32, width: f32) -> f32 {
-    let last = max(looks[look].tone_count, 1u) - 1u;
-    let edge = max(max(looks[look].tones[last].softness, width), MIN_WIDTH);
-    return select(1.0, saturate((t - looks[look].tones[last].at) / edge + 0.5), last > 0u);
 }
 
 fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split: vec2f, square: f32) -> f32 {
@@ -998,11 +994,8 @@ fn highlit(in: Surface, front_facing: bool, coverage: vec4f, glance: Glance, sha
         color = vec4f(0.0);
     }
     color = shone(shaded, glance, color);
-    var lit = 1.0;
-    if (HAS_TONE) {
-        lit = brightest_tone(shaded.look, shaded.t, shaded.t_width);
-    }
-    let shown = select(1.0, 0.0, (looks[shaded.look].flags & LOOK_BASE_NONE) != 0u);
+    let lit = shaded.in_light;
+    let shown = select(1.0, 0.0, (shaded.look_flags & LOOK_BASE_NONE) != 0u);
     if (HIGHLIGHTS > 0u) {
         color = with_highlight(0u, color, shown * coverage.x * highlight_mask(0u, in.id_uv, lit));
     }
@@ -1432,6 +1425,7 @@ fn ramp_color(look: u32, t: f32, width: f32) -> RampColor {
         else {
             weight = tone_weight(look, i, t, width);
         }
+        brightest = weight;
         if (weight > 0.0) {
             let next = tone_color(look, i);
             result.factor = mix(result.factor, next.factor, weight);
@@ -1622,6 +1616,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (OUTPUT == OUTPUT_TONE) {
         base = vec3f(1.0);
     }
+    var in_light = 1.0;
     var color = base;
     if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
         if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
@@ -1633,8 +1628,10 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         }
         else {
             color = under_ramp(look_index, base, t_lit, free_width);
+            in_light = brightest;
             if (SHADOWS) {
                 color = mix(under_ramp(look_index, base, t_dark, free_width), color, lit);
+                in_light = mix(brightest, in_light, lit);
             }
         }
     }
@@ -1656,7 +1653,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         alpha = 0.0;
     }
     let own_tone = dot(material.base, vec3f(0.299, 0.587, 0.114));
-    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, key_reach, rim, rim_width, own_tone);
+    return Shaded(vec4f(color * alpha, alpha), look_index, t, t_width, reach, key_reach, rim, rim_width, own_tone, in_light, look_flags);
 }
 
 fn shaded_surface(in: VertexInput) -> Surface {
@@ -1874,6 +1871,7 @@ fn under_ramp(look: u32, base: vec3f, t: f32, width: f32) -> vec3f {
             var color = nearest_color(base * first.factor + first.added);
             for (var i = 1u; i < looks[look].tone_count; i++) {
                 let weight = tone_weight(look, i, t, width);
+                brightest = weight;
                 if (weight > 0.0) {
                     let tone = tone_color(look, i);
                     color = mix(color, nearest_color(base * tone.factor + tone.added), weight);
@@ -2105,3 +2103,5 @@ override SHARE_PROXY: bool = false;
 override SHEEN: bool = false;
 
 override SPECULAR: bool = false;
+
+var<private> brightest: f32 = 1.0;
