@@ -290,6 +290,10 @@ fn corner_index(half: u32) -> u32 {
     return indices[range.index_first + half];
 }
 
+fn crease_strength(turn: f32) -> f32 {
+    return saturate(turn / CREASE_GROWTH);
+}
+
 fn crossing(u: Corner, v: Corner) -> Crossing {
     let swapped = u.p.x > v.p.x || (u.p.x == v.p.x && (u.p.y > v.p.y || (u.p.y == v.p.y && u.p.z > v.p.z)));
     var a = u;
@@ -541,7 +545,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             let cosine = dot(left_normal, right_normal) / max(lengths, 1e-37);
             if (cosine < frame.detect.crease_cos && lengths > 0.0) {
                 known |= LINE_CREASE;
-                crease = saturate((frame.detect.crease_cos - cosine) / CREASE_GROWTH);
+                crease = crease_strength(frame.detect.crease_cos - cosine);
             }
         }
     }

@@ -142,6 +142,10 @@ fn clamped(at: vec2i, size: vec2i) -> vec2i {
     return clamp(at, vec2i(0), size - 1);
 }
 
+fn crease_strength(turn: f32) -> f32 {
+    return saturate(turn / CREASE_GROWTH);
+}
+
 fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     if (c.id.x == 0u && q.id.x == 0u) {
         return 0u;
@@ -170,7 +174,7 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     bits &= frame.detect.sources;
     let turn = frame.detect.crease_cos - dot(c.normal.xyz, q.normal.xyz);
     if (turn > 0.0) {
-        bits |= LINE_CREASE | (strength(turn / CREASE_GROWTH) << MASK_CREASE_SHIFT);
+        bits |= LINE_CREASE | (strength(crease_strength(turn)) << MASK_CREASE_SHIFT);
     }
     let distance = distance_from_depth(frame, max(c.depth, q.depth));
     let unit = footprint(frame, distance) * max(frame.line_scale, 1.0);

@@ -31,6 +31,8 @@ const COUNT_PIECES: u32 = 0u;
 
 const COUNT_SEAMS: u32 = 1u;
 
+const CREASE_GROWTH: f32 = 0.15;
+
 const FRAME_LINE_COLORS: u32 = 128u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
@@ -225,6 +227,10 @@ fn clamped(at: vec2i) -> vec2i {
     return clamp(at, vec2i(0), vec2i(textureDimensions(ids)) - 1);
 }
 
+fn crease_strength(turn: f32) -> f32 {
+    return saturate(turn / CREASE_GROWTH);
+}
+
 fn depth_of(at: vec2i) -> f32 {
     return textureLoad(own_depths, clamped(at), 0).x;
 }
@@ -319,7 +325,7 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         depth = distance_from_depth(frame, found.depth);
     }
-    return Side(types, texel / frame.gbuffer_scale + frame.tile_origin, depth, saturate(turn / 0.15));
+    return Side(types, texel / frame.gbuffer_scale + frame.tile_origin, depth, crease_strength(turn));
 }
 
 fn side_key(at: vec2i, vertical: u32) -> vec2u {
