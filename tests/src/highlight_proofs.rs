@@ -123,19 +123,19 @@ pub fn places(check: Check<'_>) {
         println!(
             "  γ = {gamma}: overlap of a star on the head's hair with one on a ball {same:.3}"
         );
-        check((same >= 0.9) == (gamma == 1.0), format!("γ = {gamma} keeps {same} on the head"));
+        check((same >= 0.75) == (gamma == 1.0), format!("γ = {gamma} keeps {same} on the head"));
     }
 }
 
 /// How much of a star on the head's hair is where it is on a ball as large, for a part γ of the
-/// ball's normals.
+/// ball's normals. Gaps between locks leave some of it out.
 #[must_use]
 pub fn overlap_on_head(gamma: f32) -> f64 {
     let center = Vec3::new(0.0, 0.26, -0.02);
     let head = head_with(Highlight { gamma, ..star() });
     let ball = Scene {
         highlights: vec![star()],
-        ..lit_scene(shapes::uv_sphere(96, 48, 0.145), Vec3::ONE, Vec::new())
+        ..lit_scene(shapes::uv_sphere(96, 48, 0.14), Vec3::ONE, Vec::new())
     };
     let style = style("[lines]\nmethod = \"none\"\n[light]\nreplace_model_lights = true");
     let drawn = |scene: &Scene, middle: Vec3| {
