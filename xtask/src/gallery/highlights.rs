@@ -26,8 +26,11 @@ fn camera(azimuth: f32, zoom: f32) -> Vec<String> {
 /// The head from all sides: above with keys, below at the light's mirror image.
 fn views(head: &str) -> Result<Sheet> {
     let scenes = [head.to_owned(), without_keys(head)];
-    let cell =
-        |scene: &String, azimuth| Cell { scene: scene.clone(), options: camera(azimuth, 1.0) };
+    let cell = |scene: &String, azimuth| Cell {
+        scene: scene.clone(),
+        style: None,
+        options: camera(azimuth, 1.0),
+    };
     let cells =
         scenes.iter().flat_map(|scene| AROUND.map(|azimuth| cell(scene, azimuth))).collect();
     Ok(Sheet { name: "highlights-views", cell: [240, 240], columns: AROUND.len(), cells })
@@ -41,7 +44,7 @@ fn between(head: &str) -> Result<Sheet> {
         let scene = changed(head, "[[highlight.key]]", &interpolation)?;
         for i in 0..5 {
             let options = camera(15.0 * i as f32, 1.0);
-            cells.push(Cell { scene: scene.clone(), options });
+            cells.push(Cell { scene: scene.clone(), style: None, options });
         }
     }
     Ok(Sheet { name: "highlights-between", cell: [200, 200], columns: 5, cells })
@@ -58,7 +61,7 @@ fn proxies(head: &str) -> Result<Sheet> {
         }
         for gamma in ["0.0", "0.9", "1.0"] {
             let scene = changed(&scene, "level = true", &format!("level = true\ngamma = {gamma}"))?;
-            cells.push(Cell { scene, options: camera(-22.0, 1.15) });
+            cells.push(Cell { scene, style: None, options: camera(-22.0, 1.15) });
         }
     }
     Ok(Sheet { name: "highlights-proxy", cell: [320, 320], columns: 3, cells })
@@ -81,7 +84,7 @@ fn drawings(head: &str) -> Result<Sheet> {
         let scene = changed(head, "drawing = \"angel-ring\"", &format!("drawing = \"{drawing}\""))?;
         let size = format!("size_deg = [{width}, {height}]");
         let scene = changed(&scene, "size_deg = [200, 84]", &size)?;
-        cells.push(Cell { scene, options: camera(-10.0, 1.1) });
+        cells.push(Cell { scene, style: None, options: camera(-10.0, 1.1) });
     }
     Ok(Sheet { name: "highlights-drawings", cell: [240, 240], columns: 4, cells })
 }
@@ -92,7 +95,7 @@ fn body(hero: &str) -> Sheet {
     let cell = |(time, azimuth): (f32, f32)| {
         let mut options = camera(azimuth, 1.0);
         options.extend(["--time".to_owned(), time.to_string()]);
-        Cell { scene: hero.to_owned(), options }
+        Cell { scene: hero.to_owned(), style: None, options }
     };
     Sheet { name: "highlights-body", cell: [300, 400], columns: 4, cells: moments.map(cell).into() }
 }

@@ -1,11 +1,10 @@
 //! Sheets of light: kinds of lights with their shadows, ramps, comic highlights, ways of printing, and
 //! clean faces (Suzuki 2004, figures 3.3–3.4 and 4.5–4.8).
 
-use std::fs;
 use std::path::Path;
 
-use super::sheet::{self, Cell, Sheet, read};
-use crate::{Error, Result};
+use super::sheet::{self, Cell, Sheet, changed, read};
+use crate::Result;
 
 /// A style without the preset that it extends.
 const COMIC: &str = "version = 1\nextends = \"american-comic\"\n[paint.shadow]\nenabled = true\n";
@@ -13,30 +12,19 @@ const COMIC: &str = "version = 1\nextends = \"american-comic\"\n[paint.shadow]\n
 /// Draws all sheets into the folder.
 pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let scenes = root.join("assets/scenes/light");
-    let styles = root.join("out/styles");
-    fs::create_dir_all(&styles).map_err(Error::io("cannot make the folder", &styles))?;
     let stage = read(&scenes, "stage.scene.toml")?;
     let [head, teapot] = [read(&scenes, "head.scene.toml")?, read(&scenes, "teapot.scene.toml")?];
-    let all = [
-        lights(&styles, &stage)?,
-        ramps(&styles, &stage)?,
-        shines(&styles, &teapot)?,
-        prints(&styles, &teapot)?,
-        faces(&styles, &head)?,
-    ];
+    let all = [lights(&stage), ramps(&stage)?, shines(&teapot), prints(&teapot), faces(&head)?];
     sheet::draw(genga, &all, &scenes, folder)
 }
 
-/// A cell in a style of its own, which is written as a file.
-fn cell(styles: &Path, name: &str, scene: String, style: &str) -> Result<Cell> {
-    let path = styles.join(format!("{name}.style.toml"));
-    fs::write(&path, style).map_err(Error::io("cannot write", &path))?;
-    let options = vec!["--style".to_owned(), path.display().to_string()];
-    Ok(Cell { scene, options })
+/// A cell in a style of its own.
+fn cell(scene: String, style: &str) -> Cell {
+    Cell { scene, style: Some(style.to_owned()), options: Vec::new() }
 }
 
 /// The stage with other lights than its own.
-fn lights(styles: &Path, stage: &str) -> Result<Sheet> {
+fn lights(stage: &str) -> Sheet {
     let bare = stage.split("[[light]]").next().unwrap_or(stage);
     let kinds = [
         "[[light]]\ntype = \"directional\"\nazimuth_deg = -50\nelevation_deg = 38\n",
@@ -49,17 +37,12 @@ fn lights(styles: &Path, stage: &str) -> Result<Sheet> {
          [[light]]\ntype = \"directional\"\nazimuth_deg = 10\nelevation_deg = 20\nintensity = 0.8\n",
         "[[light]]\ntype = \"point\"\nnode = \"leftLowerArm\"\nposition = [0.0, 0.2, 0.7]\n",
     ];
-    let cells = kinds.iter().map(|kind| cell(styles, "lights", format!("{bare}{kind}"), COMIC));
-    Ok(Sheet {
-        name: "light-lights",
-        cell: [360, 300],
-        columns: 3,
-        cells: cells.collect::<Result<_>>()?,
-    })
+    let cells = kinds.iter().map(|kind| cell(format!("{bare}{kind}"), COMIC));
+    Sheet { name: "light-lights", cell: [360, 300], columns: 3, cells: cells.collect() }
 }
 
 /// Two and three tones, five tones, a gradient, soft edges, shade in a colour of its own.
-fn ramps(styles: &Path, stage: &str) -> Result<Sheet> {
+fn ramps(stage: &str) -> Result<Sheet> {
     let stop = |at: &str, color: &str| format!("{{ at = {at}, color = \"{color}\" }}");
     let hard = |stops: &[(&str, &str)], rest: &str| {
         let stops: Vec<String> = stops.iter().map(|(at, color)| stop(at, color)).collect();
@@ -89,21 +72,13 @@ fn ramps(styles: &Path, stage: &str) -> Result<Sheet> {
         ),
     ];
     let near = changed(stage, "fov_deg = 28", "fov_deg = 17")?;
-    let cells = all
-        .iter()
-        .enumerate()
-        .map(|(i, style)| cell(styles, &format!("ramp-{i}"), near.clone(), style));
-    Ok(Sheet {
-        name: "light-ramps",
-        cell: [300, 300],
-        columns: 3,
-        cells: cells.collect::<Result<_>>()?,
-    })
+    let cells = all.iter().map(|style| cell(near.clone(), style));
+    Ok(Sheet { name: "light-ramps", cell: [300, 300], columns: 3, cells: cells.collect() })
 }
 
 /// Highlights by Blinn and Phong, their gradient, split and squared ones, bare paper, a rim from behind,
 /// straight streaks.
-fn shines(styles: &Path, teapot: &str) -> Result<Sheet> {
+fn shines(teapot: &str) -> Sheet {
     let all = [
         "specular = { exponent = 60 }",
         "specular = { form = \"gradient\", exponent = 10, gradient = 3 }",
@@ -113,18 +88,18 @@ fn shines(styles: &Path, teapot: &str) -> Result<Sheet> {
          threshold = 0.62, blend = \"replace\" }",
         "sheen = { spacing_m = 0.17, width = 0.2, strength = 0.75 }",
     ];
-    let cells = all.iter().enumerate().map(|(i, rest)| {
+    let cells = all.iter().map(|rest| {
         let glaze =
             "[[override]]\nselect = { materials = [\"glaze\", \"lid\", \"spout\", \"handle\"] }";
         let style = format!("{COMIC}{glaze}\npaint.{rest}\n");
-        cell(styles, &format!("shine-{i}"), teapot.to_owned(), &style)
+        cell(teapot.to_owned(), &style)
     });
-    let cells = cells.collect::<Result<_>>()?;
-    Ok(Sheet { name: "light-highlights", cell: [360, 300], columns: 3, cells })
+    let cells = cells.collect();
+    Sheet { name: "light-highlights", cell: [360, 300], columns: 3, cells }
 }
 
 /// Flat colours, a palette of nine, the dots of the old print, bare paper.
-fn prints(styles: &Path, teapot: &str) -> Result<Sheet> {
+fn prints(teapot: &str) -> Sheet {
     let all = [
         "",
         "[paint]\npalette = [\"#101018\", \"#fff6e0\", \"#c8342b\", \"#23479a\", \"#3a86c0\", \"#f0b73a\", \
@@ -132,37 +107,26 @@ fn prints(styles: &Path, teapot: &str) -> Result<Sheet> {
         "[paint]\ndots = { spacing = 11 }\n",
         "[paint]\nbase = \"paper\"\n",
     ];
-    let cells = all.iter().enumerate().map(|(i, rest)| {
-        cell(styles, &format!("print-{i}"), teapot.to_owned(), &format!("{COMIC}{rest}"))
-    });
-    let cells = cells.collect::<Result<_>>()?;
-    Ok(Sheet { name: "light-print", cell: [420, 340], columns: 2, cells })
+    let cells = all.iter().map(|rest| cell(teapot.to_owned(), &format!("{COMIC}{rest}")));
+    let cells = cells.collect();
+    Sheet { name: "light-print", cell: [420, 340], columns: 2, cells }
 }
 
 /// A face by its own normals and by an ellipsoid's, and without the hair's shadow; the light goes round.
-fn faces(styles: &Path, head: &str) -> Result<Sheet> {
+fn faces(head: &str) -> Result<Sheet> {
     let own = head.split("[[shading]]").next().unwrap_or(head).to_owned();
     let clean = "[[override]]\nselect = { materials = [\"skin\", \"eye*\"] }\n\
                  paint.shadow = { receive = false }\n";
     let rows = [(own, ""), (head.to_owned(), ""), (head.to_owned(), clean)];
     let mut cells = Vec::new();
-    for (row, (scene, rest)) in rows.iter().enumerate() {
+    for (scene, rest) in &rows {
         for azimuth in ["-75", "-40", "0", "50"] {
             let light = format!("azimuth_deg = {azimuth}");
             let scene = changed(scene, "azimuth_deg = -60", &light)?;
             let style =
                 format!("version = 1\nextends = \"anime\"\n[paint.shadow]\nenabled = true\n{rest}");
-            cells.push(cell(styles, &format!("face-{row}"), scene, &style)?);
+            cells.push(cell(scene, &style));
         }
     }
     Ok(Sheet { name: "light-faces", cell: [280, 280], columns: 4, cells })
-}
-
-/// A scene with other words in place of some; it must have them.
-fn changed(scene: &str, from: &str, to: &str) -> Result<String> {
-    if scene.contains(from) {
-        Ok(scene.replace(from, to))
-    } else {
-        Err(Error::new(format!("the scene of the sheets has no '{from}' any more")))
-    }
 }

@@ -1,14 +1,16 @@
 //! Sheets: rows of pictures of one scene, each with a change or an option of `genga render`.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::{Error, Result, process};
 
-/// One picture of a sheet: a scene file's text, and options of `genga render`.
+/// One picture of a sheet: a scene file's text, that of a style if it is not the scene's own, and
+/// options of `genga render`.
 pub(super) struct Cell {
     pub(super) scene: String,
+    pub(super) style: Option<String>,
     pub(super) options: Vec<String>,
 }
 
@@ -24,13 +26,17 @@ pub(super) struct Sheet {
 
 /// Draws sheets whose scenes' paths begin in the folder `beside`.
 pub(super) fn draw(genga: &Path, sheets: &[Sheet], beside: &Path, folder: &Path) -> Result<()> {
-    let part = beside.join(".sheet.scene.toml");
-    let drawn = sheets.iter().try_for_each(|sheet| draw_one(genga, sheet, &part, folder));
-    let removed = fs::remove_file(&part).map_err(Error::io("cannot remove", &part));
-    drawn.and(removed)
+    let parts = [".sheet.scene.toml", ".sheet.style.toml"].map(|name| beside.join(name));
+    let drawn = sheets.iter().try_for_each(|sheet| draw_one(genga, sheet, &parts, folder));
+    let written = parts.iter().filter(|part| part.is_file());
+    let removed = written
+        .map(|part| fs::remove_file(part).map_err(Error::io("cannot remove", part)))
+        .collect::<Result<Vec<()>>>();
+    drawn.and(removed.map(drop))
 }
 
-fn draw_one(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<()> {
+fn draw_one(genga: &Path, sheet: &Sheet, parts: &[PathBuf; 2], folder: &Path) -> Result<()> {
+    let [part, style] = parts;
     let [width, height] = sheet.cell;
     let rows = sheet.cells.len().div_ceil(sheet.columns);
     let mut whole = image::RgbaImage::new(width * sheet.columns as u32, height * rows as u32);
@@ -39,6 +45,10 @@ fn draw_one(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<(
         fs::write(part, &cell.scene).map_err(Error::io("cannot write", part))?;
         let mut render = Command::new(genga);
         render.args(["render", "--quiet"]).arg(part).args(["--size", &format!("{width}x{height}")]);
+        if let Some(text) = &cell.style {
+            fs::write(style, text).map_err(Error::io("cannot write", style))?;
+            render.arg("--style").arg(style);
+        }
         process::run(render.args(&cell.options).arg("--output").arg(&file))?;
         let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
         let picture = image::open(&file).map_err(wrong)?.into_rgba8();
@@ -47,7 +57,12 @@ fn draw_one(genga: &Path, sheet: &Sheet, part: &Path, folder: &Path) -> Result<(
         image::imageops::replace(&mut whole, &picture, at(column, width), at(row, height));
     }
     let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", file.display()));
-    image::DynamicImage::from(whole).into_rgb8().save(&file).map_err(wrong)
+    let is_grey = whole.pixels().all(|p| p[0] == p[1] && p[1] == p[2]);
+    let whole = image::DynamicImage::from(whole);
+    if is_grey {
+        return whole.into_luma8().save(&file).map_err(wrong);
+    }
+    whole.into_rgb8().save(&file).map_err(wrong)
 }
 
 /// The text of a scene file.

@@ -30,7 +30,7 @@ fn cameras(scene: &str) -> Result<Sheet> {
     let cell = |(eye, at): ([f64; 3], [f64; 3])| {
         let scene = changed(scene, "position = [1, 0, 4.2]", &format!("position = {eye:?}"))?;
         let scene = changed(&scene, "target = [1, 0, 0]", &format!("target = {at:?}"))?;
-        Ok(Cell { scene, options: Vec::new() })
+        Ok(Cell { scene, style: None, options: Vec::new() })
     };
     let cells: Result<_> = places.into_iter().map(cell).collect();
     Ok(Sheet { name: "waves-cameras", cell: [280, 210], columns: 3, cells: cells? })
