@@ -29,7 +29,6 @@ fn scaled(style: &Style, scale: &str) -> Style {
 }
 
 #[test]
-#[ignore = "small detection still loses ends of seams"]
 fn broad_parts_have_the_same_lines_at_every_scale() {
     let size = [384, 288];
     let style = contour_style(3.0, size[1], "");

@@ -193,9 +193,8 @@ fn smooth_triangles(whole: &Whole<'_>, pairs: &[(Half, Option<Half>)]) -> Vec<bo
         let (triangles, _) = primitive.indices.as_chunks::<3>();
         bends.extend(triangles.iter().map(|&triangle| bend(primitive, triangle)));
     }
-    let may_be_coarse = |triangle: u32| {
-        bends[triangle as usize].is_some_and(|cosine| cosine <= SMOOTH_COSINE)
-    };
+    let may_be_coarse =
+        |triangle: u32| bends[triangle as usize].is_some_and(|cosine| cosine <= SMOOTH_COSINE);
     // Parts of triangles side by side that may be coarse, as trees of their first ones.
     let mut parents: Vec<u32> = (0..bends.len() as u32).collect();
     fn first_of(parents: &mut [u32], mut triangle: u32) -> u32 {
