@@ -409,7 +409,7 @@ struct Highlight {
     split: vec2f,
     square: f32,
     flags: u32,
-    reserved_0: u32,
+    radius: f32,
     reserved_1: u32,
     color: vec4f
 }
@@ -1476,7 +1476,7 @@ fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
-    var n = proxy_normal(i, p_in_world);
+    var n = proxy_normal(i, seen_point(i, p_in_world, to_eye));
     if (BLENDS_NORMALS) {
         let gamma = highlights.items[i].gamma;
         n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
@@ -1525,6 +1525,18 @@ fn screen_dots(look: u32, darkness: f32, pixel: vec2f) -> f32 {
     let texel = 1.0 / (frame.paint_scale * cell);
     let d = length(q - round(q));
     return saturate((radius - d) / texel + 0.5) * saturate(part * 50.0);
+}
+
+fn seen_point(i: u32, p_in_world: vec3f, to_eye: vec3f) -> vec3f {
+    if (!HAS_BALL) {
+        return p_in_world;
+    }
+    let radius = highlights.items[i].radius;
+    let q = p_in_world - highlights.items[i].center;
+    let along = dot(q, to_eye);
+    let inside = along * along - dot(q, q) + radius * radius;
+    let moved = p_in_world + to_eye * (sqrt(max(inside, 0.0)) - along);
+    return select(p_in_world, moved, radius > 0.0);
 }
 
 fn shade(in: Surface, front_facing: bool) -> Shaded {
@@ -2090,6 +2102,8 @@ override EDITED_SHADING: bool = false;
 override EMITS: bool = false;
 
 override HAS_AXIS: bool = false;
+
+override HAS_BALL: bool = false;
 
 override HAS_MASK: bool = false;
 

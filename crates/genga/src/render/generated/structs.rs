@@ -583,7 +583,7 @@ pub(crate) struct Highlight {
     pub(crate) split: glam::Vec2,
     pub(crate) square: f32,
     pub(crate) flags: u32,
-    pub(crate) reserved_0: u32,
+    pub(crate) radius: f32,
     pub(crate) reserved_1: u32,
     pub(crate) color: glam::Vec4,
 }
@@ -663,8 +663,8 @@ const _: () = assert!(
     "offset of Highlight.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Highlight, reserved_0) == 168,
-    "offset of Highlight.reserved_0 does not match WGSL"
+    std::mem::offset_of!(Highlight, radius) == 168,
+    "offset of Highlight.radius does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Highlight, reserved_1) == 172,
