@@ -164,8 +164,6 @@ const LOOK_UNSHADOWED: u32 = 16u;
 
 const MAX_CLEARANCE: f32 = 200.0;
 
-const MAX_LIGHTS: u32 = 16u;
-
 const MAX_SLOPE: f32 = 12.0;
 
 const MAX_STEPS: f32 = 6.0;
@@ -819,7 +817,7 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     let kind = looks[look].hatch.direction;
     if (HATCH_HAS_LIGHT && kind == HATCH_BY_LIGHT) {
         var to_light = vec3f(0.0);
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
+        for (var i = 0u; i < LIGHTS; i++) {
             let offset = lights[i].position.xyz - point.p_in_world;
             to_light += lights[i].factors.x * select(unit(offset), lights[i].direction.xyz, lights[i].kind == 0u);
         }
@@ -1083,27 +1081,26 @@ fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
     return vec4f(max(below.rgb, added), alpha);
 }
 
-fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
+fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -> f32 {
     if (lights[light].shadow_maps == 0u) {
         return 1.0;
     }
     let map = map_of(light, receiver.p_in_world);
     let footing = footing_of(map, receiver, to_light);
-    if (!footing.is_inside) {
-        return 1.0;
-    }
     let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
     let short = select(footing.px, footing.py, is_wide);
-    let count = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    let places = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    let is_seen = matters && footing.is_inside;
+    let count = select(0.0, places, is_seen);
     var sum = 0.0;
     for (var i = 0.5; i < count; i += 1.0) {
-        let step = long * (i / count - 0.5);
+        let step = long * (i / places - 0.5);
         let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
-        let width = length(vec2f(dot(lit.yz, long) / count, dot(lit.yz, short)));
+        let width = length(vec2f(dot(lit.yz, long) / places, dot(lit.yz, short)));
         sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
     }
-    return sum / count;
+    return select(1.0, sum / places, is_seen);
 }
 
 fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
@@ -1546,20 +1543,14 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let look_index = material.look;
     let look_flags = looks[look_index].flags;
     var sum = 0.0;
-    var terms: array<vec2f, 16>;
     let first_term = light_term(lights[0], in.p_in_world, normal).term;
-    if (SHADOWS) {
-        let receiver = receiver_at(in.p_in_world, normal);
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
-            let light = light_term(lights[i], in.p_in_world, normal);
-            sum += lights[i].factors.x * light.term;
-            terms[i] = vec2f(light.term, light_reach(i, receiver, light.to_light));
-        }
+    var face_change = 0.0;
+    for (var i = 0u; i < LIGHTS; i++) {
+        sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
     }
-    else {
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
-            sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
-        }
+    var receiver: Receiver;
+    if (SHADOWS) {
+        receiver = receiver_at(in.p_in_world, normal);
     }
     var picture = 0.5;
     if (EDITED_SHADING | SHADE_PICTURES) {
@@ -1568,8 +1559,8 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         picture = textureSampleLevel(shade_picture, shade_sampler, vec2f(u, in.id_uv.y), 0.0).r;
         if (in.face.w > 0.0) {
             let term = clamp(2.0 * (picture - in.face.x), -1.0, 1.0);
-            sum += lights[0].factors.x * (term - first_term);
-            terms[0].x = term;
+            face_change = term - first_term;
+            sum += lights[0].factors.x * face_change;
         }
     }
     let sum_width = fwidth(sum);
@@ -1612,16 +1603,18 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
-            key_reach = terms[0].y;
-            for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
+            for (var i = 0u; i < LIGHTS; i++) {
                 let weight = lights[i].factors.x;
-                let term = terms[i].x;
-                let reached = terms[i].y;
+                let light = light_term(lights[i], in.p_in_world, normal);
+                let term = light.term + select(0.0, face_change, i == 0u);
+                let matters = OUTPUT == OUTPUT_SHADOW || term > min(cap, 0.0);
+                let reached = light_reach(i, receiver, light.to_light, matters);
                 let capped = min(term, cap);
                 mixed += weight * mix(capped, term, reached);
                 upper += weight * select(capped, term, reached > 0.0);
                 lower += weight * select(term, capped, reached < 1.0);
                 reach += weight * reached;
+                key_reach = select(key_reach, reached, i == 0u);
             }
             lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
             t_lit = ramp_coordinate(upper, gain, bias);
@@ -2138,6 +2131,8 @@ override HATCH_HAS_SURFACE: bool = false;
 override HIGHLIGHTS: u32 = 0u;
 
 override IS_RESHAPED: bool = false;
+
+override LIGHTS: u32 = 1u;
 
 override LINEAR_BLEND: bool = false;
 

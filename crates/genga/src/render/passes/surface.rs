@@ -36,6 +36,8 @@ pub(crate) struct Variant {
     /// With other normals for shading.
     pub(crate) edited_shading: bool,
     pub(crate) material: MaterialVariant,
+    /// How many lights there are; only paint has a loop over so many.
+    pub(crate) lights: u32,
 }
 
 /// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
@@ -109,6 +111,7 @@ impl Variant {
             features: Features::default(),
             edited_shading: false,
             material: item.look,
+            lights: 0,
         }
     }
 }
@@ -207,6 +210,7 @@ impl SurfacePipelines {
             ("SHADE_PICTURES", yes(variant.features.shade_pictures)),
             ("EDITED_SHADING", yes(variant.edited_shading)),
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),
+            ("LIGHTS", f64::from(variant.lights)),
         ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
