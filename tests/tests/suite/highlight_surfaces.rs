@@ -429,3 +429,19 @@ fn other_styles_and_lines_go_with_highlights() {
         }
     }
 }
+
+#[test]
+fn a_drawing_on_a_ball_can_be_put_at_any_pixel_of_a_head() {
+    let mut scene = genga_tests::highlight_proofs::head_with(of(BuiltInDrawing::Star));
+    scene.highlights[0].proxy = Proxy::Ball { center: Vec3::new(0.0, 0.26, -0.02), radius: 0.14 };
+    let view = orbit_view(&scene, &Orbit::default(), [120, 120]);
+    let puts = genga_tests::highlights::put_everywhere(&scene, &view, 20, 7);
+    assert!(puts.tried >= 10 && puts.worst_px <= 1.0, "{puts:?}");
+}
+
+#[test]
+fn a_star_keeps_its_shape_on_the_locks_of_a_head() {
+    let [own, round] = [0.0, 1.0].map(genga_tests::highlight_proofs::overlap_on_head);
+    assert!(round >= 0.9, "γ = 1 keeps {round:.3} of it");
+    assert!(own < 0.5, "γ = 0 keeps {own:.3}, so this proves nothing");
+}

@@ -88,6 +88,10 @@ fn highlights_of_all_kinds() -> Vec<Highlight> {
             proxy: Proxy::Capsule { from: Vec3::ZERO, to: Vec3::Y },
             ..Highlight::default()
         },
+        Highlight {
+            proxy: Proxy::Ball { center: Vec3::ZERO, radius: 1.0 },
+            ..Highlight::default()
+        },
     ]
 }
 

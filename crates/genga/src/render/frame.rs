@@ -58,10 +58,8 @@ pub(crate) struct Output {
     pub(crate) lines: bool,
     /// The waves.
     pub(crate) glow: bool,
-    /// Whether the glow is dithered for 8 bits a channel.
+    /// Whether the glow is dithered for 8 encoded bits a channel.
     pub(crate) dithered: bool,
-    /// Linear light instead of sRGB-encoded values.
-    pub(crate) linear: bool,
     /// Straight alpha instead of premultiplied.
     pub(crate) straight: bool,
 }
@@ -79,6 +77,18 @@ pub(crate) fn gbuffer_scale(prepared: &Prepared, view: &View) -> Scale {
             DetectScale::Sixth => Scale { texels: 1, pixels: 6 },
         },
         LineMethod::None | LineMethod::Hull | LineMethod::Rim => Scale::whole(1),
+    }
+}
+
+/// A `METHOD_*`.
+pub(crate) fn line_method(style: &Style) -> u32 {
+    match style.lines.method {
+        LineMethod::None => gpu::METHOD_NONE,
+        LineMethod::Contour => gpu::METHOD_CONTOUR,
+        LineMethod::Reference => gpu::METHOD_REFERENCE,
+        LineMethod::Hull => gpu::METHOD_HULL,
+        LineMethod::Rim => gpu::METHOD_RIM,
+        LineMethod::Image => gpu::METHOD_IMAGE,
     }
 }
 
@@ -183,7 +193,6 @@ pub(crate) fn frame_values(
         flags: flag(blend == BlendSpace::Linear, gpu::FRAME_LINEAR_BLEND)
             | flag(projected.orthographic, gpu::FRAME_ORTHOGRAPHIC)
             | flag(output.background, gpu::FRAME_BACKGROUND)
-            | flag(output.linear, gpu::FRAME_OUTPUT_LINEAR)
             | flag(output.paint, gpu::FRAME_SHOW_PAINT)
             | flag(output.lines, gpu::FRAME_SHOW_LINES)
             | flag(output.straight, gpu::FRAME_OUTPUT_STRAIGHT)
@@ -194,14 +203,7 @@ pub(crate) fn frame_values(
             | flag(style.lines.sets.iter().any(bent), gpu::FRAME_SCREEN_CURVATURE)
             | flag(scale.is_small(), gpu::FRAME_SMALL_DETECTION),
         line_set_count: style.lines.sets.len().min(4) as u32,
-        line_method: match style.lines.method {
-            LineMethod::None => gpu::METHOD_NONE,
-            LineMethod::Contour => gpu::METHOD_CONTOUR,
-            LineMethod::Reference => gpu::METHOD_REFERENCE,
-            LineMethod::Hull => gpu::METHOD_HULL,
-            LineMethod::Rim => gpu::METHOD_RIM,
-            LineMethod::Image => gpu::METHOD_IMAGE,
-        },
+        line_method: line_method(style),
         palette_count: style.paint.palette.len().min(16) as u32,
         dots_spacing: dots.spacing * line_scale,
         reserved_0: 0,

@@ -252,7 +252,6 @@ impl Renderer {
             lines: true,
             glow: true,
             dithered: true,
-            linear: false,
             straight: true,
         };
         let device = &self.device;

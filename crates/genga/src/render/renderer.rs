@@ -210,8 +210,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
-            dithered: is_8_bit(format),
-            linear: is_linear(format),
+            dithered: is_8_bit(format) && !format.is_srgb(),
             straight: false,
         };
         let _turn = self.turn();
@@ -410,7 +409,6 @@ impl Renderer {
             lines: true,
             glow: true,
             dithered: true,
-            linear: false,
             straight: false,
         };
         let tile = Tile { origin: [0, 0], size: view.size };
@@ -473,16 +471,6 @@ impl Renderer {
     pub(crate) fn encoder(&self, label: &str) -> wgpu::CommandEncoder {
         self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) })
     }
-}
-
-/// Whether a target of that format wants linear light.
-fn is_linear(format: wgpu::TextureFormat) -> bool {
-    use wgpu::TextureFormat as F;
-    format.is_srgb()
-        || matches!(
-            format,
-            F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat | F::R16Float | F::R32Float
-        )
 }
 
 /// Whether a target of that format has so few steps that a smooth glow shows bands.

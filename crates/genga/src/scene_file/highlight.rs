@@ -184,6 +184,10 @@ pub struct ProxyEntry {
     /// Its middle in metres; the node's origin by default.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub center: Option<[f32; 3]>,
+    /// Sphere: radius in metres of the ball that the drawing is seen on, so that locks which stand
+    /// off it do not move the drawing; without it, the drawing lies on the surface itself.
+    #[schemars(range(min = 1e-6, max = 1e6))]
+    pub radius: Option<f32>,
     /// Ellipsoid: half axes, of which only the ratios count.
     #[schemars(inner(range(min = 1e-6, max = 1e6)))]
     pub radii: Option<[f32; 3]>,
@@ -348,6 +352,7 @@ impl ProxyEntry {
         let kind = self.r#type;
         let given = [
             ("center", self.center.is_some(), kind != K::Capsule),
+            ("radius", self.radius.is_some(), kind == K::Sphere),
             ("radii", self.radii.is_some(), kind == K::Ellipsoid),
             ("rotation_deg", self.rotation_deg.is_some(), kind == K::Ellipsoid),
             ("from", self.from.is_some(), kind == K::Capsule),

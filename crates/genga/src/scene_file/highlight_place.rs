@@ -195,7 +195,10 @@ impl Places<'_> {
         let point = |p: Option<[f32; 3]>| p.map_or(Vec3::ZERO, Vec3::from);
         let center = point(proxy.center);
         Ok(match proxy.r#type {
-            ProxyKind::Sphere => Proxy::Sphere { center },
+            ProxyKind::Sphere => match proxy.radius {
+                Some(radius) => Proxy::Ball { center, radius },
+                None => Proxy::Sphere { center },
+            },
             ProxyKind::Ellipsoid => Proxy::Ellipsoid {
                 center,
                 radii: proxy.radii.map_or(Vec3::ONE, Vec3::from),

@@ -112,6 +112,13 @@ fn a_hidden_node_can_be_a_proxy() {
 }
 
 #[test]
+fn a_sphere_with_a_radius_is_a_ball_to_be_seen_on() {
+    let text = one("drawing = \"disc\"\nproxy = { center = [0, 1, 0], radius = 0.5 }");
+    let proxy = &assemble(&text).scene.highlights[0].proxy;
+    assert_eq!(*proxy, Proxy::Ball { center: Vec3::Y, radius: 0.5 });
+}
+
+#[test]
 fn what_is_wrong_with_a_highlight_is_said_at_its_place() {
     let disc = "drawing = \"disc\"\n";
     let cases = [
@@ -124,6 +131,11 @@ fn what_is_wrong_with_a_highlight_is_said_at_its_place() {
         ("drawing = \"star\"\nmask = \"none.png\"", "cannot be read"),
         ("drawing = \"star\"\nproxy = { type = \"cube\" }", "\"sphere\""),
         ("drawing = \"star\"\nproxy = { radii = [1, 1, 1] }", "no 'radii'"),
+        ("drawing = \"star\"\nproxy = { radius = 0 }", "radius"),
+        (
+            "drawing = \"star\"\nproxy = { type = \"capsule\", to = [0, 1, 0], radius = 1 }",
+            "no 'radius'",
+        ),
         ("drawing = \"star\"\nproxy = { type = \"ellipsoid\" }", "needs 'radii'"),
         ("drawing = \"star\"\nproxy = { type = \"capsule\" }", "either 'to' or 'to_node'"),
         ("drawing = \"star\"\nproxy = { type = \"plane\", normal = [0, 0, 0] }", "not zero"),

@@ -52,6 +52,9 @@ impl ShadingEntry {
             Some(proxy) if proxy.r#type == super::ProxyKind::Mesh => {
                 Err("must not have a mesh as its 'proxy': only highlights can".to_owned())
             }
+            Some(proxy) if proxy.radius.is_some() => {
+                Err("must have a 'proxy' without 'radius', which only highlights have".to_owned())
+            }
             Some(proxy) => {
                 proxy.check().map_err(|problem| format!("must have another 'proxy': {problem}"))
             }

@@ -23,10 +23,6 @@ var line_colors: texture_2d<f32>;
 
 const FRAME_BACKGROUND: u32 = 4u;
 
-const FRAME_LINEAR_BLEND: u32 = 1u;
-
-const FRAME_OUTPUT_LINEAR: u32 = 8u;
-
 const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
 
 const FRAME_SHOW_LINES: u32 = 32u;
@@ -152,16 +148,14 @@ fn encoded(color: vec4f) -> vec4f {
         return vec4f(0.0);
     }
     let is_straight = (frame.flags & FRAME_OUTPUT_STRAIGHT) != 0u;
-    let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
-    let linear_output = (frame.flags & FRAME_OUTPUT_LINEAR) != 0u;
-    if (linear_blend == linear_output && !is_straight) {
+    if (LINEAR_BLEND == LINEAR_OUTPUT && !is_straight) {
         return color;
     }
     var straight = color.rgb / color.a;
-    if (linear_output && !linear_blend) {
+    if (LINEAR_OUTPUT && !LINEAR_BLEND) {
         straight = linear_from_display(straight);
     }
-    if (linear_blend && !linear_output) {
+    if (LINEAR_BLEND && !LINEAR_OUTPUT) {
         straight = display_from_linear(straight);
     }
     return vec4f(straight * select(color.a, 1.0, is_straight), color.a);
@@ -185,13 +179,13 @@ fn glow_of(order: u32, pixel: vec2i, is_linear: bool) -> Added {
 fn line_color(index: u32, pixel: vec2i) -> vec4f {
     var color = frame.line_sets[index].color;
     let flags = frame.line_sets[index].flags;
-    if ((flags & (SET_COLOR_BASE | SET_COLOR_LIGHT)) == 0u) {
+    if (!LINE_COLORS || (flags & (SET_COLOR_BASE | SET_COLOR_LIGHT)) == 0u) {
         return color;
     }
     let surface = textureLoad(line_colors, min(pixel, vec2i(textureDimensions(line_colors)) - 1), 0);
     if ((flags & SET_COLOR_BASE) != 0u) {
         var base = surface.rgb * frame.line_sets[index].darken;
-        if ((frame.flags & FRAME_LINEAR_BLEND) != 0u) {
+        if (LINEAR_BLEND) {
             base = linear_from_display(base);
         }
         return vec4f(base, color.a);
@@ -244,14 +238,16 @@ fn over(top: vec4f, bottom: vec4f) -> vec4f {
 }
 
 fn paint_at(pixel: vec2i) -> vec4f {
-    let scale = i32(frame.paint_scale);
+    if (PAINT_SCALE == 1) {
+        return textureLoad(paint, pixel, 0);
+    }
     var sum = vec4f(0.0);
-    for (var y = 0; y < scale; y++) {
-        for (var x = 0; x < scale; x++) {
-            sum += textureLoad(paint, pixel * scale + vec2i(x, y), 0);
+    for (var y = 0; y < PAINT_SCALE; y++) {
+        for (var x = 0; x < PAINT_SCALE; x++) {
+            sum += textureLoad(paint, pixel * PAINT_SCALE + vec2i(x, y), 0);
         }
     }
-    return sum / f32(scale * scale);
+    return sum / f32(PAINT_SCALE * PAINT_SCALE);
 }
 
 fn with_glow(added: Added, is_linear: bool, color: vec4f) -> vec4f {
@@ -281,24 +277,25 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         let background = mix(frame.background_top, frame.background_bottom, height);
         color = vec4f(background.rgb * background.a, background.a);
     }
-    let is_linear = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
-    let under = glow_of(GLOW_UNDER, pixel, is_linear);
-    let through = glow_of(GLOW_LINES_THROUGH, pixel, is_linear);
-    let above = glow_of(GLOW_OVER, pixel, is_linear);
-    color = with_glow(under, is_linear, color);
+    let under = glow_of(GLOW_UNDER, pixel, LINEAR_BLEND);
+    let through = glow_of(GLOW_LINES_THROUGH, pixel, LINEAR_BLEND);
+    let above = glow_of(GLOW_OVER, pixel, LINEAR_BLEND);
+    color = with_glow(under, LINEAR_BLEND, color);
     if ((frame.flags & FRAME_SHOW_PAINT) != 0u) {
         color = over(paint_at(pixel), color);
     }
-    color = with_glow(through, is_linear, color);
-    if ((frame.flags & FRAME_SHOW_LINES) != 0u) {
+    color = with_glow(through, LINEAR_BLEND, color);
+    let has_strokes = LINE_METHOD == METHOD_CONTOUR || LINE_METHOD == METHOD_REFERENCE;
+    if (has_strokes || LINE_METHOD == METHOD_IMAGE) {
         var ink = vec4f(0.0);
-        if (frame.line_method == METHOD_CONTOUR || frame.line_method == METHOD_REFERENCE) {
+        if (has_strokes) {
             ink = textureLoad(coverage, pixel, 0);
         }
-        else if (frame.line_method == METHOD_IMAGE) {
+        else {
             ink = mask_coverage(pixel);
         }
-        let count = select(0u, frame.line_set_count, any(ink > vec4f(0.0)));
+        let is_inked = (frame.flags & FRAME_SHOW_LINES) != 0u && any(ink > vec4f(0.0));
+        let count = select(0u, frame.line_set_count, is_inked);
         for (var i = 0u; i < count; i++) {
             let line = line_color(i, pixel);
             let alpha = ink.x * line.a;
@@ -306,7 +303,7 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
             ink = ink.yzwx;
         }
     }
-    color = with_glow(above, is_linear, color);
+    color = with_glow(above, LINEAR_BLEND, color);
     let result = encoded(color);
     if (has_glow && glow.dithered != 0u) {
         let sum = under.own + under.other + through.own + through.other + above.own + above.other;
@@ -321,6 +318,16 @@ fn composite_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec
     let corner = vec2f(f32(index & 1u), f32(index >> 1u));
     return vec4f(corner * 4.0 - 1.0, 0.0, 1.0);
 }
+
+override LINEAR_BLEND: bool = false;
+
+override LINEAR_OUTPUT: bool = false;
+
+override LINE_COLORS: bool = false;
+
+override LINE_METHOD: u32 = 0u;
+
+override PAINT_SCALE: i32 = 1;
 
 override glow_mixes: bool = true;
 

@@ -6,6 +6,9 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var<storage, read> draws: array<Draw>;
 
+@group(0) @binding(10)
+var<uniform> drawn: DrawNumber;
+
 @group(0) @binding(2)
 var<storage, read> looks: array<Look>;
 
@@ -26,6 +29,10 @@ var emissive_sampler: sampler;
 
 @group(1) @binding(4)
 var id_texture: texture_2d<f32>;
+
+const BASE_COLOR: u32 = 1u;
+
+const BASE_PRODUCT: u32 = 2u;
 
 const DRAW_ALPHA_BLEND: u32 = 4u;
 
@@ -69,6 +76,14 @@ struct Draw {
     shading: u32,
     reserved_0: u32,
     reserved_1: u32
+}
+
+struct DrawNumber {
+    draw: u32,
+    look_first: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    base: vec4f
 }
 
 struct Frame {
@@ -252,8 +267,6 @@ struct Surface {
     color: vec4f,
     @location(6)
     marks: vec2f,
-    @location(7) @interpolate(flat)
-    draw: u32,
     @location(8) @interpolate(flat)
     line_id: u32,
     @location(9) @interpolate(flat)
@@ -284,9 +297,7 @@ struct VertexInput {
     @location(6)
     color: vec4f,
     @location(7)
-    line_id: u32,
-    @builtin(instance_index)
-    draw: u32
+    line_id: u32
 }
 
 fn display_from_linear(c: vec3f) -> vec3f {
@@ -296,9 +307,8 @@ fn display_from_linear(c: vec3f) -> vec3f {
 }
 
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
-    let length_squared = dot(in.normal, in.normal);
-    let unit = in.normal * inverseSqrt(max(length_squared, 1e-12));
-    return select(-unit, unit, front_facing);
+    let outwards = unit(in.normal);
+    return select(-outwards, outwards, front_facing);
 }
 
 fn hsv_from_rgb(c: vec3f) -> vec3f {
@@ -324,8 +334,8 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
     return vec3f(hue, range / max(high, 1e-6), high);
 }
 
-fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
+fn is_cut_out(alpha: f32) -> bool {
+    return (draws[drawn.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[drawn.draw].alpha_cutoff;
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -335,30 +345,39 @@ fn linear_from_display(c: vec3f) -> vec3f {
 }
 
 fn look_index(in: Surface, base: vec3f) -> u32 {
+    if (!HAS_RULES) {
+        return drawn.look_first;
+    }
     var combination = 0u;
-    let first = draws[in.draw].rule_first;
-    let count = draws[in.draw].rule_count;
+    let first = draws[drawn.draw].rule_first;
+    let count = draws[drawn.draw].rule_count;
     for (var i = 0u; i < count; i++) {
         if (rule_holds(rules[first + i], in, base)) {
             combination |= 1u << i;
         }
     }
-    return draws[in.draw].look_first + combination;
+    return drawn.look_first + combination;
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
-    let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
-    let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draws[in.draw].base_color * in.color;
-    var base = texel.rgb;
-    if (any(factor.rgb != vec3f(1.0))) {
-        base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
+    let factor = draws[drawn.draw].base_color * in.color;
+    var base = drawn.base.rgb;
+    var alpha = factor.a;
+    if (BASE != BASE_COLOR) {
+        let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
+        alpha *= texel.a;
+        base = texel.rgb;
+        if (BASE == BASE_PRODUCT) {
+            let product = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
+            base = select(base, product, any(factor.rgb != vec3f(1.0)));
+        }
     }
-    var emissive = draws[in.draw].emissive.rgb;
-    if (any(emissive > vec3f(0.0))) {
-        emissive *= linear_from_display(glow.rgb);
+    var emissive = vec3f(0.0);
+    if (EMITS) {
+        let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
+        emissive = draws[drawn.draw].emissive.rgb * linear_from_display(glow.rgb);
     }
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
+    return MaterialSample(base, alpha, emissive, look_index(in, base));
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -402,11 +421,15 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[drawn.draw].base_uv_u, draws[drawn.draw].base_uv_v), transformed_uv(in.uv1, draws[drawn.draw].emissive_uv_u, draws[drawn.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.line_id & 65535u, vec4f(0.0));
 }
 
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
+}
+
+fn unit(v: vec3f) -> vec3f {
+    return v * inverseSqrt(max(dot(v, v), 1e-24));
 }
 
 fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
@@ -427,13 +450,13 @@ fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
 @fragment
 fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> GBuffer {
     let material = material_sample(in);
-    let transparent = (draws[in.draw].flags & DRAW_ALPHA_BLEND) != 0u && material.alpha < 0.5;
-    if (transparent || is_cut_out(in, material.alpha)) {
+    let transparent = (draws[drawn.draw].flags & DRAW_ALPHA_BLEND) != 0u && material.alpha < 0.5;
+    if (transparent || is_cut_out(material.alpha)) {
         discard;
     }
     let normal = facing_normal(in, front_facing);
     let line_id = select(in.line_id, looks[material.look].line_id, in.line_id == 0u);
-    let ids = vec2u(draws[in.draw].object_id, draws[in.draw].material_id | (line_id << 16u));
+    let ids = vec2u(draws[drawn.draw].object_id, draws[drawn.draw].material_id | (line_id << 16u));
     let width = select(0.0, looks[material.look].line_width, in.marks.x > 0.0);
     var base = material.base;
     if ((looks[material.look].flags & LOOK_BASE_FIXED) != 0u) {
@@ -446,3 +469,9 @@ fn gbuffer_fragment(in: Surface, @builtin(front_facing) front_facing: bool) -> G
 fn gbuffer_vertex(in: VertexInput) -> Surface {
     return surface_from_vertex(in, frame.gbuffer_scale);
 }
+
+override BASE: u32 = 0u;
+
+override EMITS: bool = false;
+
+override HAS_RULES: bool = false;

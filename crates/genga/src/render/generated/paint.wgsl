@@ -6,6 +6,9 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var<storage, read> draws: array<Draw>;
 
+@group(0) @binding(10)
+var<uniform> drawn: DrawNumber;
+
 @group(0) @binding(2)
 var<storage, read> looks: array<Look>;
 
@@ -75,7 +78,9 @@ var clamped: sampler;
 @group(2) @binding(5)
 var repeated: sampler;
 
-const AXES = array<vec3f, 6>(vec3f(1.0, 0.0, 0.0), vec3f(0.70710678, 0.70710678, 0.0), vec3f(0.57735027, 0.57735027, 0.57735027), vec3f(0.89442719, 0.4472136, 0.0), vec3f(0.81649658, 0.40824829, 0.40824829), vec3f(0.66666667, 0.66666667, 0.33333333));
+const BASE_COLOR: u32 = 1u;
+
+const BASE_PRODUCT: u32 = 2u;
 
 const BLACK: f32 = 1.3;
 
@@ -159,8 +164,6 @@ const LOOK_UNSHADOWED: u32 = 16u;
 
 const MAX_CLEARANCE: f32 = 200.0;
 
-const MAX_LIGHTS: u32 = 16u;
-
 const MAX_SLOPE: f32 = 12.0;
 
 const MAX_STEPS: f32 = 6.0;
@@ -241,6 +244,14 @@ struct Draw {
     shading: u32,
     reserved_0: u32,
     reserved_1: u32
+}
+
+struct DrawNumber {
+    draw: u32,
+    look_first: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    base: vec4f
 }
 
 struct Footing {
@@ -363,8 +374,6 @@ struct HatchedSurface {
     color: vec4f,
     @location(6)
     marks: vec2f,
-    @location(7) @interpolate(flat)
-    draw: u32,
     @location(8) @interpolate(flat)
     line_id: u32,
     @location(9) @interpolate(flat)
@@ -398,7 +407,7 @@ struct Highlight {
     split: vec2f,
     square: f32,
     flags: u32,
-    reserved_0: u32,
+    radius: f32,
     reserved_1: u32,
     color: vec4f
 }
@@ -480,8 +489,7 @@ struct MaterialSample {
 
 struct Octave {
     period: f32,
-    wanted: f32,
-    frac: f32,
+    size: f32,
     x: f32,
     even: f32,
     odd: f32,
@@ -626,8 +634,6 @@ struct Surface {
     color: vec4f,
     @location(6)
     marks: vec2f,
-    @location(7) @interpolate(flat)
-    draw: u32,
     @location(8) @interpolate(flat)
     line_id: u32,
     @location(9) @interpolate(flat)
@@ -658,9 +664,7 @@ struct VertexInput {
     @location(6)
     color: vec4f,
     @location(7)
-    line_id: u32,
-    @builtin(instance_index)
-    draw: u32
+    line_id: u32
 }
 
 struct Way {
@@ -670,7 +674,7 @@ struct Way {
 }
 
 fn any_across(n: vec3f) -> vec3f {
-    return select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7);
+    return select(vec3f(0.0, n.z, -n.y), vec3f(-n.z, 0.0, n.x), abs(n.x) > 0.7);
 }
 
 fn axis_along(at: Frames, axis: vec3f) -> vec3f {
@@ -744,9 +748,8 @@ fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
 }
 
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
-    let length_squared = dot(in.normal, in.normal);
-    let unit = in.normal * inverseSqrt(max(length_squared, 1e-12));
-    return select(-unit, unit, front_facing);
+    let outwards = unit(in.normal);
+    return select(-outwards, outwards, front_facing);
 }
 
 fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32, salt: u32) -> f32 {
@@ -795,9 +798,9 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     let n = point.normal;
     let rest_n = unit(point.rest_normal);
     var d = point.direction - n * dot(n, point.direction);
-    d = unit(select(any_across(n) - n * dot(n, any_across(n)), d, dot(d, d) > 1e-8));
+    d = unit(select(any_across(n), d, dot(d, d) > 1e-8));
     var rest_d = point.rest_direction - rest_n * dot(rest_n, point.rest_direction);
-    rest_d = unit(select(any_across(rest_n) - rest_n * dot(rest_n, any_across(rest_n)), rest_d, dot(rest_d, rest_d) > 1e-8));
+    rest_d = unit(select(any_across(rest_n), rest_d, dot(rest_d, rest_d) > 1e-8));
     let b = cross(n, d) * select(1.0, -1.0, point.mirrored);
     let rest_b = cross(rest_n, rest_d);
     let orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -812,15 +815,15 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     let up = size * (frame.camera_up.xyz - slant * dot(n, frame.camera_up.xyz));
     var way = vec2f(1.0, 0.0);
     let kind = looks[look].hatch.direction;
-    if (kind == HATCH_BY_LIGHT) {
+    if (HATCH_HAS_LIGHT && kind == HATCH_BY_LIGHT) {
         var to_light = vec3f(0.0);
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
+        for (var i = 0u; i < LIGHTS; i++) {
             let offset = lights[i].position.xyz - point.p_in_world;
             to_light += lights[i].factors.x * select(unit(offset), lights[i].direction.xyz, lights[i].kind == 0u);
         }
         way = vec2f(dot(d, to_light), dot(b, to_light));
     }
-    else if (kind == HATCH_FIXED) {
+    if (HATCH_HAS_AXIS && kind == HATCH_FIXED) {
         let axis = looks[look].hatch.axis.xyz;
         way = vec2f(dot(rest_d, axis), dot(rest_b, axis));
     }
@@ -864,13 +867,13 @@ fn hand(pen: Pen, line: f32, ways: array<Way, 2>, seed: u32) -> Hand {
     let odd_own = hatch_hash(line, along.odd * along.period, seed);
     let way = vec2f(1.0, 0.5) * abs(along.x - along.even);
     let smoothed = way * way * (3.0 - 2.0 * way);
-    let both = mix(mix(even.xy, odd_own.xy, smoothed.x), mix(even.xy, far.xy, smoothed.y), along.frac);
-    let size = exp2(along.frac);
+    let both = mix(mix(even.xy, odd_own.xy, smoothed.x), mix(even.xy, far.xy, smoothed.y), along.size - 1.0);
+    let size = along.size;
     let place = vec2f(along.even, along.odd) + size * END_JITTER * vec2f(even.z, odd_own.z);
     let half_width = size * (GAP + GAP_JITTER * (1.0 + vec2f(even.w, odd_own.w)));
     let distance = abs(vec2f(along.x) - place) - half_width;
     let open = 1.0 - smoothstep(vec2f(0.0), vec2f(size * TAPER), distance);
-    return Hand(both.x, 0.6 * both.y + 0.5 * own.y, max(open.x, open.y * (1.0 - along.frac)));
+    return Hand(both.x, 0.6 * both.y + 0.5 * own.y, max(open.x, open.y * (2.0 - size)));
 }
 
 fn hatch_hash(line: f32, node: f32, seed: u32) -> vec4f {
@@ -920,7 +923,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
 }
 
 fn hatch_point(in: HatchedSurface) -> HatchPoint {
-    return HatchPoint(in.p_in_world, unit(in.normal), in.direction, in.rest, in.rest_normal, in.rest_direction, in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[in.draw].rest_scale, (draws[in.draw].flags & DRAW_MIRRORED) != 0u);
+    return HatchPoint(in.p_in_world, unit(in.normal), in.direction, in.rest, in.rest_normal, in.rest_direction, in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
 }
 
 fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
@@ -936,7 +939,7 @@ fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
 }
 
 fn hatched_from_surface(s: Surface, rest: RestInput) -> HatchedSurface {
-    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, s.draw, s.line_id, s.face, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, s.line_id, s.face, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -1058,14 +1061,14 @@ fn image_profile(p: vec2f, period: f32, frac: f32, level: f32) -> f32 {
     return saturate(0.5 + (mix(fine, coarse, frac) - 0.5) * gain);
 }
 
-fn inked(shaded: Shaded, point: HatchPoint, draw: u32) -> vec4f {
+fn inked(shaded: Shaded, point: HatchPoint) -> vec4f {
     let ink = hatch_ink(shaded.look, shaded.t, shaded.t_width, shaded.own_tone, point);
-    let shown = select(1.0, 0.0, (draws[draw].flags & DRAW_UNLIT) != 0u);
+    let shown = select(1.0, 0.0, (draws[drawn.draw].flags & DRAW_UNLIT) != 0u);
     return with_ink(shaded.color, looks[shaded.look].hatch.color, shown * ink);
 }
 
-fn is_cut_out(in: Surface, alpha: f32) -> bool {
-    return (draws[in.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[in.draw].alpha_cutoff;
+fn is_cut_out(alpha: f32) -> bool {
+    return (draws[drawn.draw].flags & DRAW_ALPHA_MASK) != 0u && alpha < draws[drawn.draw].alpha_cutoff;
 }
 
 fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
@@ -1078,27 +1081,26 @@ fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
     return vec4f(max(below.rgb, added), alpha);
 }
 
-fn light_reach(light: u32, receiver: Receiver, to_light: vec3f) -> f32 {
+fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -> f32 {
     if (lights[light].shadow_maps == 0u) {
         return 1.0;
     }
     let map = map_of(light, receiver.p_in_world);
     let footing = footing_of(map, receiver, to_light);
-    if (!footing.is_inside) {
-        return 1.0;
-    }
     let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
     let short = select(footing.px, footing.py, is_wide);
-    let count = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    let places = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    let is_seen = matters && footing.is_inside;
+    let count = select(0.0, places, is_seen);
     var sum = 0.0;
     for (var i = 0.5; i < count; i += 1.0) {
-        let step = long * (i / count - 0.5);
+        let step = long * (i / places - 0.5);
         let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
-        let width = length(vec2f(dot(lit.yz, long) / count, dot(lit.yz, short)));
+        let width = length(vec2f(dot(lit.yz, long) / places, dot(lit.yz, short)));
         sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
     }
-    return sum / count;
+    return select(1.0, sum / places, is_seen);
 }
 
 fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
@@ -1156,15 +1158,18 @@ fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f, softness: f32) -> vec
 }
 
 fn look_index(in: Surface, base: vec3f) -> u32 {
+    if (!HAS_RULES) {
+        return drawn.look_first;
+    }
     var combination = 0u;
-    let first = draws[in.draw].rule_first;
-    let count = draws[in.draw].rule_count;
+    let first = draws[drawn.draw].rule_first;
+    let count = draws[drawn.draw].rule_count;
     for (var i = 0u; i < count; i++) {
         if (rule_holds(rules[first + i], in, base)) {
             combination |= 1u << i;
         }
     }
-    return draws[in.draw].look_first + combination;
+    return drawn.look_first + combination;
 }
 
 fn map_of(light: u32, p_in_world: vec3f) -> u32 {
@@ -1231,47 +1236,40 @@ fn marks(look: u32, pen: Pen, point: HatchPoint, pattern: u32) -> f32 {
 }
 
 fn material_sample(in: Surface) -> MaterialSample {
-    let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
-    let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
-    let factor = draws[in.draw].base_color * in.color;
-    var base = texel.rgb;
-    if (any(factor.rgb != vec3f(1.0))) {
-        base = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
+    let factor = draws[drawn.draw].base_color * in.color;
+    var base = drawn.base.rgb;
+    var alpha = factor.a;
+    if (BASE != BASE_COLOR) {
+        let texel = textureSample(base_color_texture, base_color_sampler, in.base_uv);
+        alpha *= texel.a;
+        base = texel.rgb;
+        if (BASE == BASE_PRODUCT) {
+            let product = display_from_linear(linear_from_display(texel.rgb) * factor.rgb);
+            base = select(base, product, any(factor.rgb != vec3f(1.0)));
+        }
     }
-    var emissive = draws[in.draw].emissive.rgb;
-    if (any(emissive > vec3f(0.0))) {
-        emissive *= linear_from_display(glow.rgb);
+    var emissive = vec3f(0.0);
+    if (EMITS) {
+        let glow = textureSample(emissive_texture, emissive_sampler, in.emissive_uv);
+        emissive = draws[drawn.draw].emissive.rgb * linear_from_display(glow.rgb);
     }
-    return MaterialSample(base, texel.a * factor.a, emissive, look_index(in, base));
+    return MaterialSample(base, alpha, emissive, look_index(in, base));
 }
 
 fn nearest_axes(x: vec3f) -> Axes {
     let m = abs(x);
-    let s = select(vec3f(-1.0), vec3f(1.0), x >= vec3f(0.0));
-    let x_first = m.x >= m.y && m.x >= m.z;
-    let y_first = !x_first && m.y >= m.z;
-    let first = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), y_first), vec3f(1.0, 0.0, 0.0), x_first);
-    let rest = m - 2.0 * first;
-    let x_second = rest.x >= rest.y && rest.x >= rest.z;
-    let y_second = !x_second && rest.y >= rest.z;
-    let second = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), y_second), vec3f(1.0, 0.0, 0.0), x_second);
-    let third = 1.0 - first - second;
-    let sorted = vec3f(dot(m, first), dot(m, second), dot(m, third));
-    var best = AXES[0];
-    var next = AXES[1];
-    var best_dot = -1.0;
-    var next_dot = -1.0;
-    for (var i = 0u; i < 6u; i++) {
-        let axis = AXES[i];
-        let nearness = dot(sorted, axis);
-        let leads = nearness > best_dot;
-        let follows = nearness > next_dot;
-        next = select(select(next, axis, follows), best, leads);
-        next_dot = select(select(next_dot, nearness, follows), best_dot, leads);
-        best = select(best, axis, leads);
-        best_dot = select(best_dot, nearness, leads);
-    }
-    return Axes(signed_axis(s * (first * best.x + second * best.y + third * best.z)), signed_axis(s * (first * next.x + second * next.y + third * next.z)), best_dot - next_dot);
+    let greatest = max(m.x, max(m.y, m.z));
+    let least = min(m.x, min(m.y, m.z));
+    let middle = max(min(m.x, m.y), min(max(m.x, m.y), m.z));
+    let both = greatest + middle;
+    var nearest = ranked(vec2u(0u), greatest, 0u);
+    nearest = ranked(nearest, 0.70710678 * both, 1u);
+    nearest = ranked(nearest, 0.57735027 * (both + least), 2u);
+    nearest = ranked(nearest, 0.4472136 * (both + greatest), 3u);
+    nearest = ranked(nearest, 0.40824829 * (both + greatest + least), 4u);
+    nearest = ranked(nearest, 0.33333333 * (2.0 * both + least), 5u);
+    let rank = vec3u(u32(m.x >= m.y) + u32(m.x >= m.z), u32(m.y > m.x) + u32(m.y >= m.z), u32(m.z > m.x) + u32(m.z > m.y));
+    return Axes(placed_axis(sorted_axis(nearest.x & 7u), rank, x), placed_axis(sorted_axis(nearest.y & 7u), rank, x), bitcast<f32>(nearest.x) - bitcast<f32>(nearest.y));
 }
 
 fn nearest_color(color: vec3f) -> vec3f {
@@ -1308,13 +1306,14 @@ fn octahedral_unpack(bits: u32) -> vec3f {
 }
 
 fn octave(x: f32, wanted: f32) -> Octave {
-    let rho = clamp(log2(max(wanted, 1e-30)), -60.0, 60.0);
-    let m = floor(rho);
-    let period = exp2(m);
-    let scaled = clamp(x / period, -8000000.0, 8000000.0);
+    let bits = bitcast<u32>(clamp(wanted, 1e-18, 1e18));
+    let power = bits & 2139095040u;
+    let size = bitcast<f32>((bits & 8388607u) | 1065353216u);
+    let per_unit = bitcast<f32>(2130706432u - power);
+    let scaled = clamp(x * per_unit, -8000000.0, 8000000.0);
     let even = 2.0 * round(0.5 * scaled);
     let side = select(-1.0, 1.0, scaled >= even);
-    return Octave(period, wanted, rho - m, scaled, even, even + side, even + 2.0 * side);
+    return Octave(bitcast<f32>(power), size, scaled, even, even + side, even + 2.0 * side);
 }
 
 fn oklab_from_linear(c: vec3f) -> vec3f {
@@ -1353,6 +1352,12 @@ fn place_in_map(map: u32, p_in_world: vec3f) -> vec2f {
     return (clip.xy / max(clip.w, 1e-12) * vec2f(0.5, -0.5) + 0.5) * shadow_maps[map].texels;
 }
 
+fn placed_axis(sorted: vec3f, rank: vec3u, x: vec3f) -> vec3f {
+    let lesser = select(vec3f(sorted.z), vec3f(sorted.y), rank == vec3u(1u));
+    let sizes = select(lesser, vec3f(sorted.x), rank == vec3u(2u));
+    return signed_axis(select(-sizes, sizes, x >= vec3f(0.0)));
+}
+
 fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, salt: u32) -> f32 {
     let slope = length(vec2f(dot(axis, at.right), dot(axis, at.up)));
     let u = axis_side(axis);
@@ -1364,9 +1369,9 @@ fn points(pen: Pen, across: f32, along: f32, slopes: vec2f, share: f32, salt: u3
     let x = octave(across, slopes.x * pen.spacing);
     let y = octave(along, slopes.y * pen.spacing);
     let seed = pen.seed ^ salt ^ 2146121005u;
-    let grown_x = 2.0 * vec2f(exp2(x.frac - 1.0), 1.0 - exp2(x.frac - 1.0));
-    let grown_y = 2.0 * vec2f(exp2(y.frac - 1.0), 1.0 - exp2(y.frac - 1.0));
-    let size = vec2f(exp2(x.frac), exp2(y.frac)) / pen.spacing;
+    let grown_x = vec2f(x.size, 2.0 - x.size);
+    let grown_y = vec2f(y.size, 2.0 - y.size);
+    let size = vec2f(x.size, y.size) / pen.spacing;
     let scale = 1.0 / size;
     let tone = saturate(pen.darkness);
     let area = share * tone * (1.0 + 0.35 * tone) * scale.x * scale.y;
@@ -1448,6 +1453,11 @@ fn ramp_picture(row: u32, t: f32) -> vec3f {
     return mix(textureLoad(ramp_pictures, vec2u(left, row), 0).rgb, textureLoad(ramp_pictures, vec2u(right, row), 0).rgb, x - floor(x));
 }
 
+fn ranked(keys: vec2u, nearness: f32, number: u32) -> vec2u {
+    let key = (bitcast<u32>(nearness) & ~7u) | number;
+    return vec2u(max(keys.x, key), max(keys.y, min(keys.x, key)));
+}
+
 fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
     let px = dpdx(p_in_world);
     let py = dpdy(p_in_world);
@@ -1463,7 +1473,7 @@ fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
-    var n = proxy_normal(i, p_in_world);
+    var n = proxy_normal(i, seen_point(i, p_in_world, to_eye));
     if (BLENDS_NORMALS) {
         let gamma = highlights.items[i].gamma;
         n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
@@ -1514,28 +1524,33 @@ fn screen_dots(look: u32, darkness: f32, pixel: vec2f) -> f32 {
     return saturate((radius - d) / texel + 0.5) * saturate(part * 50.0);
 }
 
+fn seen_point(i: u32, p_in_world: vec3f, to_eye: vec3f) -> vec3f {
+    if (!HAS_BALL) {
+        return p_in_world;
+    }
+    let radius = highlights.items[i].radius;
+    let q = p_in_world - highlights.items[i].center;
+    let along = dot(q, to_eye);
+    let inside = along * along - dot(q, q) + radius * radius;
+    let moved = p_in_world + to_eye * (sqrt(max(inside, 0.0)) - along);
+    return select(p_in_world, moved, radius > 0.0);
+}
+
 fn shade(in: Surface, front_facing: bool) -> Shaded {
     let material = material_sample(in);
-    let draw_flags = draws[in.draw].flags;
+    let draw_flags = draws[drawn.draw].flags;
     let normal = facing_normal(in, front_facing);
     let look_index = material.look;
     let look_flags = looks[look_index].flags;
-    let linear_blend = (frame.flags & FRAME_LINEAR_BLEND) != 0u;
     var sum = 0.0;
-    var terms: array<vec2f, 16>;
     let first_term = light_term(lights[0], in.p_in_world, normal).term;
-    if (SHADOWS) {
-        let receiver = receiver_at(in.p_in_world, normal);
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
-            let light = light_term(lights[i], in.p_in_world, normal);
-            sum += lights[i].factors.x * light.term;
-            terms[i] = vec2f(light.term, light_reach(i, receiver, light.to_light));
-        }
+    var face_change = 0.0;
+    for (var i = 0u; i < LIGHTS; i++) {
+        sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
     }
-    else {
-        for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
-            sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
-        }
+    var receiver: Receiver;
+    if (SHADOWS) {
+        receiver = receiver_at(in.p_in_world, normal);
     }
     var picture = 0.5;
     if (EDITED_SHADING | SHADE_PICTURES) {
@@ -1544,8 +1559,8 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         picture = textureSampleLevel(shade_picture, shade_sampler, vec2f(u, in.id_uv.y), 0.0).r;
         if (in.face.w > 0.0) {
             let term = clamp(2.0 * (picture - in.face.x), -1.0, 1.0);
-            sum += lights[0].factors.x * (term - first_term);
-            terms[0].x = term;
+            face_change = term - first_term;
+            sum += lights[0].factors.x * face_change;
         }
     }
     let sum_width = fwidth(sum);
@@ -1556,7 +1571,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
         rim = dot(normal, to_eye(frame, in.p_in_world));
         rim_width = fwidth(rim);
     }
-    if (is_cut_out(in, material.alpha)) {
+    if (is_cut_out(material.alpha)) {
         discard;
     }
     let gain = looks[look_index].gain;
@@ -1588,16 +1603,18 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
-            key_reach = terms[0].y;
-            for (var i = 0u; i < MAX_LIGHTS && lights[i].factors.x > 0.0; i++) {
+            for (var i = 0u; i < LIGHTS; i++) {
                 let weight = lights[i].factors.x;
-                let term = terms[i].x;
-                let reached = terms[i].y;
+                let light = light_term(lights[i], in.p_in_world, normal);
+                let term = light.term + select(0.0, face_change, i == 0u);
+                let matters = OUTPUT == OUTPUT_SHADOW || term > min(cap, 0.0);
+                let reached = light_reach(i, receiver, light.to_light, matters);
                 let capped = min(term, cap);
                 mixed += weight * mix(capped, term, reached);
                 upper += weight * select(capped, term, reached > 0.0);
                 lower += weight * select(term, capped, reached < 1.0);
                 reach += weight * reached;
+                key_reach = select(key_reach, reached, i == 0u);
             }
             lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
             t_lit = ramp_coordinate(upper, gain, bias);
@@ -1610,7 +1627,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if ((look_flags & LOOK_BASE_FIXED) != 0u) {
         base = looks[look_index].fixed_color.rgb;
     }
-    if (linear_blend) {
+    if (LINEAR_BLEND) {
         base = linear_from_display(base);
     }
     if (OUTPUT == OUTPUT_TONE) {
@@ -1638,8 +1655,13 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     if (OUTPUT == OUTPUT_SHADOW) {
         color = vec3f(reach);
     }
-    if (OUTPUT < OUTPUT_BASE && any(material.emissive > vec3f(0.0))) {
-        color += select(display_from_linear(material.emissive), material.emissive, linear_blend);
+    if (OUTPUT < OUTPUT_BASE && EMITS) {
+        if (LINEAR_BLEND) {
+            color += material.emissive;
+        }
+        else {
+            color += display_from_linear(material.emissive);
+        }
     }
     if (DOTS && OUTPUT < OUTPUT_BASE) {
         color = printed_color(color, frame.viewport_origin + in.clip.xy / frame.paint_scale);
@@ -1659,7 +1681,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
 fn shaded_surface(in: VertexInput) -> Surface {
     var surface = surface_from_vertex(in, frame.paint_scale);
     if (EDITED_SHADING) {
-        let number = draws[in.draw].shading;
+        let number = draws[drawn.draw].shading;
         if (number > 0u) {
             surface.normal = shading_normal(number - 1u, in.p_in_world, surface.normal);
             surface.face = shadings[number - 1u].face;
@@ -1676,6 +1698,12 @@ fn shading_normal(shading: u32, p_in_world: vec3f, normal: vec3f) -> vec3f {
     let n = vec3f(dot(shadings[shading].normals_x, q), dot(shadings[shading].normals_y, q), dot(shadings[shading].normals_z, q));
     let unit = n * inverseSqrt(max(dot(n, n), 1e-30));
     return mix(normal, unit, shadings[shading].amount);
+}
+
+fn shared_rest(tone: vec2f, carried: vec2f) -> vec2f {
+    let half = sqrt(1.0 - tone);
+    let more = mix(half, half * half, abs(2.0 * carried - 1.0));
+    return select(half * half / more, more, carried >= vec2f(0.5));
 }
 
 fn sheen_coverage(look: u32, glance: Glance) -> f32 {
@@ -1713,6 +1741,14 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 
 fn signed_axis(axis: vec3f) -> vec3f {
     return select(-axis, axis, dot(axis, vec3f(16.0, 4.0, 1.0)) > 0.0);
+}
+
+fn sorted_axis(number: u32) -> vec3f {
+    let greatest = select(1.0, 2.0, number > 2u);
+    let middle = select(min(f32(number), 1.0), 2.0, number == 5u);
+    let least = select(0.0, 1.0, number == 2u || number > 3u);
+    let axis = vec3f(greatest, middle, least);
+    return axis * inverseSqrt(dot(axis, axis));
 }
 
 fn specular_coverage(look: u32, glance: Glance) -> f32 {
@@ -1796,13 +1832,13 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(pen.darkness, 0.0)));
     let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
-    var part = 1.0 - exp2(carried * log2(1.0 - tone));
+    var part = 1.0 - shared_rest(tone, carried);
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
-    let grown = exp2(lines.frac - 1.0);
+    let grown = 0.5 * lines.size;
     let half_widths = part * vec2f(grown, 1.0 - grown);
-    let moved = 0.16 * loose * exp2(lines.frac) * shift;
+    let moved = 0.16 * loose * lines.size * shift;
     let d = vec2f(lines.x - lines.even, lines.x - lines.odd) - moved;
-    let texel = pen.texel * exp2(lines.frac) / pen.spacing;
+    let texel = pen.texel * lines.size / pen.spacing;
     let ink = stroke_coverage(d.x, half_widths.x, texel) + stroke_coverage(d.y, half_widths.y, texel);
     return select(min(ink, 1.0), 0.0, slope < 1e-20);
 }
@@ -1813,11 +1849,11 @@ fn surface_coverage(in: Surface, front_facing: bool) -> vec4f {
 
 fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
-    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[in.draw].base_uv_u, draws[in.draw].base_uv_v), transformed_uv(in.uv1, draws[in.draw].emissive_uv_u, draws[in.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.draw, in.line_id & 65535u, vec4f(0.0));
+    return Surface(viewport_clip(frame, clip, texels_per_pixel), in.p_in_world, octahedral_unpack(in.normal), transformed_uv(in.uv0, draws[drawn.draw].base_uv_u, draws[drawn.draw].base_uv_v), transformed_uv(in.uv1, draws[drawn.draw].emissive_uv_u, draws[drawn.draw].emissive_uv_v), in.uv0, in.color, vec2f(in.line.x, unpack2x16float(in.line_id).y), in.line_id & 65535u, vec4f(0.0));
 }
 
 fn surface_of(in: HatchedSurface) -> Surface {
-    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.marks, in.draw, in.line_id, in.face);
+    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.marks, in.line_id, in.face);
 }
 
 fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> f32 {
@@ -1934,7 +1970,7 @@ fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
     let threshold = looks[look_index].rim_threshold * looks[look_index].line_width;
     let ink = saturate((threshold - shaded.rim) / soft + 0.5);
     let line = frame.line_sets[max(frame.line_set_count, 1u) - 1u].color;
-    let is_blended = (draws[in.draw].flags & DRAW_ALPHA_BLEND) != 0u;
+    let is_blended = (draws[drawn.draw].flags & DRAW_ALPHA_BLEND) != 0u;
     let strength = ink * line.a * select(1.0, shaded.color.a, is_blended);
     return vec4f(mix(color.rgb, line.rgb, strength), mix(color.a, 1.0, strength));
 }
@@ -1968,7 +2004,7 @@ fn hatched_fragment(in: HatchedSurface, @builtin(front_facing) front_facing: boo
     let surface = surface_of(in);
     let glance = glance_of(surface, front_facing);
     let shaded = shade(surface, front_facing);
-    let color = inked(shaded, point, in.draw);
+    let color = inked(shaded, point);
     if (OUTPUT != OUTPUT_PICTURE) {
         return color;
     }
@@ -1982,7 +2018,7 @@ fn hatched_highlight_fragment(in: HatchedSurface, @builtin(front_facing) front_f
     let coverage = surface_coverage(surface, front_facing);
     let glance = glance_of(surface, front_facing);
     let shaded = shade(surface, front_facing);
-    return highlit(surface, front_facing, coverage, glance, shaded, inked(shaded, point, in.draw));
+    return highlit(surface, front_facing, coverage, glance, shaded, inked(shaded, point));
 }
 
 @fragment
@@ -2019,7 +2055,7 @@ fn hatched_vertex(in: VertexInput, rest: RestInput) -> HatchedSurface {
 
 @vertex
 fn hull_vertex(in: VertexInput) -> Hull {
-    let look = draws[in.draw].look_first;
+    let look = drawn.look_first;
     let factor = looks[look].line_width * in.line.x;
     let normal = octahedral_unpack(in.smooth_normal);
     let clip = frame.clip_from_world * vec4f(in.p_in_world, 1.0);
@@ -2048,13 +2084,19 @@ fn paint_vertex(in: VertexInput) -> Surface {
     return shaded_surface(in);
 }
 
+override BASE: u32 = 0u;
+
 override BLENDS_NORMALS: bool = false;
 
 override DOTS: bool = false;
 
 override EDITED_SHADING: bool = false;
 
+override EMITS: bool = false;
+
 override HAS_AXIS: bool = false;
+
+override HAS_BALL: bool = false;
 
 override HAS_MASK: bool = false;
 
@@ -2062,13 +2104,19 @@ override HAS_MATRIX: bool = false;
 
 override HAS_NORMAL_MAP: bool = false;
 
+override HAS_RULES: bool = false;
+
 override HAS_TONE: bool = false;
+
+override HATCH_HAS_AXIS: bool = false;
 
 override HATCH_HAS_CROSS: bool = false;
 
 override HATCH_HAS_DOTS: bool = false;
 
 override HATCH_HAS_IMAGE: bool = false;
+
+override HATCH_HAS_LIGHT: bool = false;
 
 override HATCH_HAS_PENCIL: bool = false;
 
@@ -2083,6 +2131,10 @@ override HATCH_HAS_SURFACE: bool = false;
 override HIGHLIGHTS: u32 = 0u;
 
 override IS_RESHAPED: bool = false;
+
+override LIGHTS: u32 = 1u;
+
+override LINEAR_BLEND: bool = false;
 
 override ON_PANORAMA: bool = false;
 

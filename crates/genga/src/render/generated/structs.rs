@@ -210,6 +210,38 @@ const _: () = assert!(
     std::mem::offset_of!(Draw, reserved_1) == 140,
     "offset of Draw.reserved_1 does not match WGSL"
 );
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct DrawNumber {
+    pub(crate) draw: u32,
+    pub(crate) look_first: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) base: glam::Vec4,
+}
+const _: () = assert!(
+    std::mem::size_of::< DrawNumber > () == 32, "size of DrawNumber does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(DrawNumber, draw) == 0,
+    "offset of DrawNumber.draw does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(DrawNumber, look_first) == 4,
+    "offset of DrawNumber.look_first does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(DrawNumber, reserved_0) == 8,
+    "offset of DrawNumber.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(DrawNumber, reserved_1) == 12,
+    "offset of DrawNumber.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(DrawNumber, base) == 16,
+    "offset of DrawNumber.base does not match WGSL"
+);
 pub(crate) const EDGE_FLAT: u32 = 268435456u32;
 pub(crate) const EDGE_HARD: u32 = 1073741824u32;
 pub(crate) const EDGE_MATERIAL: u32 = 2147483648u32;
@@ -236,7 +268,6 @@ pub(crate) const FRAME_BACKGROUND: u32 = 4u32;
 pub(crate) const FRAME_LINEAR_BLEND: u32 = 1u32;
 pub(crate) const FRAME_LINE_COLORS: u32 = 128u32;
 pub(crate) const FRAME_ORTHOGRAPHIC: u32 = 2u32;
-pub(crate) const FRAME_OUTPUT_LINEAR: u32 = 8u32;
 pub(crate) const FRAME_OUTPUT_STRAIGHT: u32 = 64u32;
 pub(crate) const FRAME_SCREEN_CURVATURE: u32 = 256u32;
 pub(crate) const FRAME_SHOW_LINES: u32 = 32u32;
@@ -552,7 +583,7 @@ pub(crate) struct Highlight {
     pub(crate) split: glam::Vec2,
     pub(crate) square: f32,
     pub(crate) flags: u32,
-    pub(crate) reserved_0: u32,
+    pub(crate) radius: f32,
     pub(crate) reserved_1: u32,
     pub(crate) color: glam::Vec4,
 }
@@ -632,8 +663,8 @@ const _: () = assert!(
     "offset of Highlight.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Highlight, reserved_0) == 168,
-    "offset of Highlight.reserved_0 does not match WGSL"
+    std::mem::offset_of!(Highlight, radius) == 168,
+    "offset of Highlight.radius does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Highlight, reserved_1) == 172,

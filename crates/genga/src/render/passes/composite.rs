@@ -11,15 +11,28 @@ use crate::render::gpu::{
     timing::Timer,
 };
 use crate::render::{
+    frame::{has_line_colors, line_method},
     prepare::{Prepared, waves::GlowKind},
     targets::Targets,
 };
+use crate::style::BlendSpace;
 
 pub(crate) struct CompositePass {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: Mutex<HashMap<(wgpu::TextureFormat, GlowKind), Arc<wgpu::RenderPipeline>>>,
+    made: Mutex<HashMap<Kind, Arc<wgpu::RenderPipeline>>>,
+}
+
+/// What a pipeline is specialised for; see `shaders/passes/composite.wesl`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Kind {
+    format: wgpu::TextureFormat,
+    glow: GlowKind,
+    paint_scale: u32,
+    line_method: u32,
+    line_colors: bool,
+    linear_blend: bool,
 }
 
 impl CompositePass {
@@ -64,7 +77,18 @@ impl CompositePass {
                 (6, R::TextureView(&colors.view)),
             ],
         );
-        let pipeline = self.pipeline(device, format, prepared.waves.glow_kind(&prepared.style));
+        let style = &prepared.style;
+        let pipeline = self.pipeline(
+            device,
+            Kind {
+                format,
+                glow: prepared.waves.glow_kind(style),
+                paint_scale: targets.size.paint_scale,
+                line_method: line_method(style),
+                line_colors: has_line_colors(style),
+                linear_blend: style.paint.blend_space == BlendSpace::Linear,
+            },
+        );
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("composite"),
             color_attachments: &[cleared(output, None)],
@@ -76,14 +100,17 @@ impl CompositePass {
         pass.draw(0..3, 0..1);
     }
 
-    fn pipeline(
-        &self,
-        device: &wgpu::Device,
-        format: wgpu::TextureFormat,
-        glow: GlowKind,
-    ) -> Arc<wgpu::RenderPipeline> {
+    fn pipeline(&self, device: &wgpu::Device, kind: Kind) -> Arc<wgpu::RenderPipeline> {
         let number = |on: bool| f64::from(u8::from(on));
-        let constants = [("has_glow", number(glow.shows)), ("glow_mixes", number(glow.mixes))];
+        let constants = [
+            ("has_glow", number(kind.glow.shows)),
+            ("glow_mixes", number(kind.glow.mixes)),
+            ("PAINT_SCALE", f64::from(kind.paint_scale)),
+            ("LINE_METHOD", f64::from(kind.line_method)),
+            ("LINE_COLORS", number(kind.line_colors)),
+            ("LINEAR_BLEND", number(kind.linear_blend)),
+            ("LINEAR_OUTPUT", number(is_linear(kind.format))),
+        ];
         let make = || {
             Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("composite"),
@@ -104,13 +131,23 @@ impl CompositePass {
                         constants: &constants,
                         ..Default::default()
                     },
-                    targets: &[Some(format.into())],
+                    targets: &[Some(kind.format.into())],
                 }),
                 multiview_mask: None,
                 cache: None,
             }))
         };
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(made.entry((format, glow)).or_insert_with(make))
+        Arc::clone(made.entry(kind).or_insert_with(make))
     }
+}
+
+/// Whether a target of that format wants linear light.
+fn is_linear(format: wgpu::TextureFormat) -> bool {
+    use wgpu::TextureFormat as F;
+    format.is_srgb()
+        || matches!(
+            format,
+            F::Rgba16Float | F::Rgba32Float | F::Rg11b10Ufloat | F::R16Float | F::R32Float
+        )
 }

@@ -8,7 +8,7 @@ use crate::render::gpu::timing::Timer;
 use crate::render::{
     frame::Aim,
     layouts::Layouts,
-    prepare::{DrawItem, Prepared, shine::Features},
+    prepare::{DrawItem, Prepared, lights::light_count, shine::Features},
     targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
@@ -88,6 +88,7 @@ impl PaintPass {
             PaintOutput::All | PaintOutput::Highlights => features,
             _ => features.without_shine(),
         };
+        let lights = light_count(&prepared.lights) as u32;
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -109,6 +110,7 @@ impl PaintPass {
                 output,
                 features,
                 edited_shading,
+                lights,
                 ..Variant::of(item, samples)
             }
         };

@@ -7,7 +7,7 @@ use std::{
 };
 
 use crate::render::generated::{RestVertex, WorldVertex};
-use crate::render::gpu::bindings::pipeline_layout;
+use crate::render::gpu::bindings::{DYNAMIC_STRIDE, pipeline_layout};
 use crate::render::layouts::Layouts;
 use crate::render::prepare::{DrawItem, Prepared, geometry::VertexAttributes, shine::Features};
 use crate::render::targets::DEPTH_FORMAT;
@@ -35,6 +35,29 @@ pub(crate) struct Variant {
     pub(crate) features: Features,
     /// With other normals for shading.
     pub(crate) edited_shading: bool,
+    pub(crate) material: MaterialVariant,
+    /// How many lights there are; only paint has a loop over so many.
+    pub(crate) lights: u32,
+}
+
+/// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct MaterialVariant {
+    pub(crate) base: BaseKind,
+    pub(crate) emits: bool,
+    pub(crate) has_rules: bool,
+}
+
+/// Where base colours come from: a `BASE_*`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) enum BaseKind {
+    /// A texture whose values stay as they are.
+    #[default]
+    Texture,
+    /// One colour.
+    Color,
+    /// A texture, vertex colours and a factor.
+    Product,
 }
 
 /// What a pipeline with ink is specialised for; see `shaders/shading/hatch.wesl`.
@@ -49,6 +72,9 @@ pub(crate) struct HatchVariant {
     /// On surfaces; on texture coordinates or the picture.
     pub(crate) has_surface: bool,
     pub(crate) has_plane: bool,
+    /// By the light; along an axis of the mesh.
+    pub(crate) has_light: bool,
+    pub(crate) has_axis: bool,
 }
 
 /// What a pipeline with highlights is specialised for; see `shaders/shading/highlight.wesl`.
@@ -59,6 +85,7 @@ pub(crate) struct HighlightVariant {
     pub(crate) on_panorama: bool,
     pub(crate) share_proxy: bool,
     pub(crate) has_axis: bool,
+    pub(crate) has_ball: bool,
     pub(crate) has_matrix: bool,
     pub(crate) has_normal_map: bool,
     pub(crate) blends_normals: bool,
@@ -83,6 +110,8 @@ impl Variant {
             hatch: None,
             features: Features::default(),
             edited_shading: false,
+            material: item.look,
+            lights: 0,
         }
     }
 }
@@ -180,6 +209,8 @@ impl SurfacePipelines {
             ("DOTS", yes(variant.features.dots)),
             ("SHADE_PICTURES", yes(variant.features.shade_pictures)),
             ("EDITED_SHADING", yes(variant.edited_shading)),
+            ("LINEAR_BLEND", yes(variant.features.linear_blend)),
+            ("LIGHTS", f64::from(variant.lights)),
         ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
@@ -190,12 +221,15 @@ impl SurfacePipelines {
             ("HATCH_HAS_IMAGE", yes(hatch.has_image)),
             ("HATCH_HAS_SURFACE", yes(hatch.has_surface)),
             ("HATCH_HAS_PLANE", yes(hatch.has_plane)),
+            ("HATCH_HAS_LIGHT", yes(hatch.has_light)),
+            ("HATCH_HAS_AXIS", yes(hatch.has_axis)),
         ];
         let highlight_constants = [
             ("HIGHLIGHTS", f64::from(highlights.count)),
             ("ON_PANORAMA", yes(highlights.on_panorama)),
             ("SHARE_PROXY", yes(highlights.share_proxy)),
             ("HAS_AXIS", yes(highlights.has_axis)),
+            ("HAS_BALL", yes(highlights.has_ball)),
             ("HAS_MATRIX", yes(highlights.has_matrix)),
             ("HAS_NORMAL_MAP", yes(highlights.has_normal_map)),
             ("BLENDS_NORMALS", yes(highlights.blends_normals)),
@@ -204,7 +238,12 @@ impl SurfacePipelines {
             ("HAS_TONE", yes(highlights.has_tone)),
             ("HAS_MASK", yes(highlights.has_mask)),
         ];
-        let mut constants: Vec<(&str, f64)> = Vec::new();
+        let material = variant.material;
+        let mut constants: Vec<(&str, f64)> = vec![
+            ("BASE", f64::from(material.base as u8)),
+            ("EMITS", yes(material.emits)),
+            ("HAS_RULES", yes(material.has_rules)),
+        ];
         if variant.highlights.is_some() {
             constants.extend(highlight_constants);
         }
@@ -349,9 +388,10 @@ pub(crate) fn draw_items<'a>(
     pipelines: &SurfacePipelines,
     items: impl Iterator<Item = (usize, &'a DrawItem, Variant)>,
 ) {
-    pass.set_bind_group(0, &prepared.surface_group, &[]);
     let (mut variant_set, mut material_set, mut block_set) = (None, None, None);
     for (index, item, variant) in items {
+        let number = (index as u64 * DYNAMIC_STRIDE) as u32;
+        pass.set_bind_group(0, &prepared.surface_group, &[number]);
         if variant.highlights.is_some() && block_set != Some(item.highlights) {
             let offset = prepared.highlights.offset(item.highlights);
             pass.set_bind_group(2, prepared.highlights.group(), &[offset]);
@@ -378,8 +418,7 @@ pub(crate) fn draw_items<'a>(
         let indices = &geometry.indices[chunk.indices.page];
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         let first = chunk.indices.first;
-        let instance = index as u32;
-        pass.draw_indexed(first..first + chunk.index_count, 0, instance..instance + 1);
+        pass.draw_indexed(first..first + chunk.index_count, 0, 0..1);
     }
 }
 

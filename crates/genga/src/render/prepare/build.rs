@@ -7,7 +7,7 @@ use glam::{Vec3, Vec4};
 use super::{
     DeformData, DrawItem, NodeDeform, Prepared,
     directions::{self, Source},
-    dynamic_binding,
+    drawn, dynamic_binding,
     geometry::{Chunk, Geometry, GeometryBuilder},
     highlights::{HighlightSets, Highlights},
     lights::{self, MAX_LIGHTS},
@@ -196,6 +196,7 @@ impl<'a> Builder<'a> {
                     center: chunk.center,
                     matrix_first,
                     hatch: look.hatch.variant,
+                    look: drawn::variant(material, primitive, look.rule_count > 0),
                     chunk,
                 });
             }
@@ -335,6 +336,7 @@ impl<'a> Builder<'a> {
         let resolution = self.style.paint.shadow.resolution;
         let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
         let shadings = Shadings::new(device, queue, self.scene);
+        let numbers = drawn::numbers(device, queue, &self.draw_values);
         let surface_group = bindings::group(
             device,
             "surfaces",
@@ -350,6 +352,7 @@ impl<'a> Builder<'a> {
                 (7, wgpu::BindingResource::TextureView(&shadows.depths)),
                 (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
                 (9, shadings.values.as_entire_binding()),
+                (10, dynamic_binding::<gpu::DrawNumber>(&numbers)),
             ],
         );
         let deform = self.deform_data(&geometry);

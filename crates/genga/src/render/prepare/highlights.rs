@@ -232,7 +232,10 @@ impl Highlights {
                 }
             }
             variant.has_axis |= matches!(highlight.proxy, Proxy::Capsule { .. });
-            let is_round = matches!(highlight.proxy, Proxy::Sphere { .. } | Proxy::Capsule { .. });
+            let is_ball = matches!(highlight.proxy, Proxy::Ball { .. });
+            let is_round =
+                is_ball || matches!(highlight.proxy, Proxy::Sphere { .. } | Proxy::Capsule { .. });
+            variant.has_ball |= is_ball;
             variant.has_matrix |= !(is_round && is_evenly_scaled(&self.world_from_node[index]));
             variant.has_normal_map |= layers.normal_map >= 0;
             variant.blends_normals |= highlight.gamma < 1.0;
@@ -348,7 +351,7 @@ impl Highlights {
             split: Vec2::new(placed.split[0] as f32, placed.split[1] as f32),
             square: placed.square.clamp(0.0, 1.0) as f32,
             flags,
-            reserved_0: 0,
+            radius: shape.radius,
             reserved_1: 0,
             color,
         }

@@ -48,6 +48,16 @@ pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> V
     lights
 }
 
+/// Whether the scene has lights other than skies.
+fn has_own_light(placed: &[PlacedLight]) -> bool {
+    placed.iter().any(|light| light.kind != LightKind::Sky)
+}
+
+/// How many lights [`lights_in_view`] gives.
+pub(crate) fn light_count(placed: &[PlacedLight]) -> usize {
+    (placed.len() + usize::from(!has_own_light(placed))).min(MAX_LIGHTS)
+}
+
 /// The lights for a camera. Their weights `w_i` add up to 1. Where there are only skies, the
 /// style's own light comes before them, as strong as an intensity of 1.
 pub(crate) fn lights_in_view(
@@ -55,9 +65,8 @@ pub(crate) fn lights_in_view(
     style: &StyleLight,
     world_from_camera: &Affine3A,
 ) -> Vec<Light> {
-    let has_own = placed.iter().any(|light| light.kind != LightKind::Sky);
-    let room = if has_own { MAX_LIGHTS } else { MAX_LIGHTS - 1 };
-    let placed = &placed[..placed.len().min(room)];
+    let has_own = has_own_light(placed);
+    let placed = &placed[..light_count(placed) - usize::from(!has_own)];
     let of_style = if has_own { 0.0 } else { 1.0 };
     let total = of_style + placed.iter().map(|light| light.strength).sum::<f32>();
     let of_style = (!has_own).then(|| style_light(style, of_style / total, world_from_camera));

@@ -83,8 +83,10 @@ impl HatchRange {
         };
         if is_drawn && hatch.mapping == HatchMapping::Surface {
             variant.has_surface = true;
-            if !matches!(hatch.direction, HatchDirection::Light | HatchDirection::Fixed) {
-                self.direction = self.direction.or(Some(hatch.direction));
+            match hatch.direction {
+                HatchDirection::Light => variant.has_light = true,
+                HatchDirection::Fixed => variant.has_axis = true,
+                direction => self.direction = self.direction.or(Some(direction)),
             }
         } else if is_drawn {
             variant.has_plane = true;

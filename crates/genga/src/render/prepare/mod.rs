@@ -2,6 +2,7 @@
 
 mod build;
 mod directions;
+mod drawn;
 pub(crate) mod geometry;
 pub(crate) mod highlights;
 pub(crate) mod lights;
@@ -36,7 +37,7 @@ use super::{
     gpu::scope,
     layouts::Layouts,
 };
-use crate::render::passes::surface::HatchVariant;
+use crate::render::passes::surface::{HatchVariant, MaterialVariant};
 use crate::scene::{Aabb, Pose, Scene};
 use crate::style::Style;
 
@@ -82,6 +83,8 @@ pub(crate) struct DrawItem {
     pub(crate) tests_alpha: bool,
     /// Middle in world space, for sorting.
     pub(crate) center: Vec3,
+    /// What its base colour and looks need.
+    pub(crate) look: MaterialVariant,
     /// Its first joint matrix.
     matrix_first: u32,
     /// What its hatching needs; `None` if it has none.

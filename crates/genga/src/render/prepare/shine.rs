@@ -18,6 +18,8 @@ pub(crate) struct Features {
     pub(crate) palette: bool,
     pub(crate) dots: bool,
     pub(crate) shade_pictures: bool,
+    /// Colours are mixed in linear light.
+    pub(crate) linear_blend: bool,
 }
 
 impl Features {
@@ -31,6 +33,7 @@ impl Features {
             palette: !paint.palette.is_empty(),
             dots: paint.dots.is_some(),
             shade_pictures: paint.shade_map.is_some() || overrides().any(|o| o.shade_map.is_some()),
+            linear_blend: paint.blend_space == BlendSpace::Linear,
         }
     }
 

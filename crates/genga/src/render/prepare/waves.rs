@@ -223,7 +223,7 @@ impl WaveData {
             slot.y = u32::from(*blend == WaveBlend::Linear);
         }
         glow.layer_count = self.layers.len() as u32;
-        glow.dithered = u32::from(output.dithered && !output.linear);
+        glow.dithered = u32::from(output.dithered);
         glow
     }
 }

@@ -270,7 +270,8 @@ impl HighlightFrame {
         normal: Vec3,
         to_eye: Vec3,
     ) -> Vec3 {
-        let proxy = highlight.proxy.normal(&self.world_from_node, point).unwrap_or(normal);
+        let seen = highlight.proxy.seen(&self.world_from_node, point, to_eye);
+        let proxy = highlight.proxy.normal(&self.world_from_node, seen).unwrap_or(normal);
         let gamma = highlight.gamma.clamp(0.0, 1.0);
         let n = (gamma * proxy + (1.0 - gamma) * normal).normalize_or(normal);
         let reflected = 2.0 * n.dot(to_eye) * n - to_eye;

@@ -14,6 +14,15 @@ pub enum Proxy {
         /// O.
         center: Vec3,
     },
+    /// `normalize(q − O)`, where q is the place at which the line of sight to p meets the ball, or
+    /// comes nearest to it: the drawing is seen as on the smooth ball, however far the surface
+    /// steps out of it. (The normal at p itself moves drawings on steps that stand off the ball.)
+    Ball {
+        /// O.
+        center: Vec3,
+        /// In metres of the node, > 0.
+        radius: f32,
+    },
     /// `normalize(AᵀA(p − O))` with `A = diag(1/radii) · rotation⁻¹`.
     Ellipsoid {
         /// O.
@@ -66,6 +75,7 @@ impl Proxy {
     pub fn center(&self) -> Vec3 {
         match self {
             Self::Sphere { center }
+            | Self::Ball { center, .. }
             | Self::Ellipsoid { center, .. }
             | Self::Plane { center, .. }
             | Self::Mesh { center, .. } => *center,
@@ -74,7 +84,8 @@ impl Proxy {
     }
 
     /// Unit normal in the world at a point of the world, for a node that stands there; `None` at
-    /// the centre of the proxy.
+    /// the centre of the proxy. A ball takes the point as the place of its surface: see
+    /// [`Proxy::seen`].
     #[must_use]
     pub fn normal(&self, world_from_node: &Affine3A, point: Vec3) -> Option<Vec3> {
         let shape = ProxyShape::new(self, world_from_node);
@@ -90,9 +101,29 @@ impl Proxy {
         }
     }
 
+    /// The point that stands in for a surface's point, for an eye in the direction `to_eye` (unit
+    /// vector), all in the world: on a ball's surface, the point itself for other proxies.
+    #[must_use]
+    pub fn seen(&self, world_from_node: &Affine3A, point: Vec3, to_eye: Vec3) -> Vec3 {
+        if !matches!(self, Self::Ball { .. }) {
+            return point;
+        }
+        let shape = ProxyShape::new(self, world_from_node);
+        let q = point - shape.origin;
+        let along = q.dot(to_eye);
+        let inside = along * along - q.length_squared() + shape.radius * shape.radius;
+        point + to_eye * (inside.max(0.0).sqrt() - along)
+    }
+
     pub(in crate::scene) fn validate(&self) -> Result<(), String> {
         let vectors: [Vec3; 2] = match self {
             Self::Sphere { center } => [*center; 2],
+            Self::Ball { center, radius } => {
+                if !(radius.is_finite() && *radius > 0.0) {
+                    return Err("has a proxy with a radius that is not above 0".to_owned());
+                }
+                [*center; 2]
+            }
             Self::Ellipsoid { center, radii, rotation } => {
                 if !(radii.is_finite() && radii.cmpgt(Vec3::ZERO).all()) {
                     return Err("has a proxy with a radius that is not above 0".to_owned());
@@ -130,6 +161,8 @@ pub(crate) struct ProxyShape {
     pub(crate) axis_length: f32,
     pub(crate) normals: Mat3,
     pub(crate) offset: Vec3,
+    /// Of a ball, in the world's metres; 0 for the other proxies.
+    pub(crate) radius: f32,
 }
 
 impl ProxyShape {
@@ -147,9 +180,14 @@ impl ProxyShape {
             axis_length: 0.0,
             normals: inverse.transpose() * inverse,
             offset: Vec3::ZERO,
+            radius: 0.0,
         };
         match proxy {
             Proxy::Sphere { .. } => {}
+            Proxy::Ball { radius, .. } => {
+                let volume = Mat3::from(world_from_node.matrix3).determinant().abs();
+                shape.radius = radius * volume.cbrt();
+            }
             Proxy::Ellipsoid { radii, rotation, .. } => {
                 let largest = radii.max_element();
                 let scale = Mat3::from_diagonal(largest / *radii);

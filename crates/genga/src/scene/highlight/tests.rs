@@ -168,6 +168,21 @@ fn putting_a_drawing_somewhere_keeps_it_there() {
 }
 
 #[test]
+fn a_ball_is_seen_where_the_line_of_sight_meets_it() {
+    let ball = Proxy::Ball { center: Vec3::Y, radius: 0.5 };
+    let twice = Affine3A::from_scale(Vec3::splat(2.0));
+    let seen = |p: Vec3| ball.seen(&twice, p, Vec3::Z);
+    // Before and behind its surface, which is a metre round (0, 2, 0).
+    for z in [-3.0, 0.2, 5.0] {
+        assert!(seen(Vec3::new(0.6, 2.0, z)).distance(Vec3::new(0.6, 2.0, 0.8)) < 1e-6);
+    }
+    // A line that misses it comes nearest there.
+    assert!(seen(Vec3::new(3.0, 2.0, 0.7)).distance(Vec3::new(3.0, 2.0, 0.0)) < 1e-6);
+    let sphere = Proxy::Sphere { center: Vec3::Y };
+    assert_eq!(sphere.seen(&twice, Vec3::X, Vec3::Z), Vec3::X);
+}
+
+#[test]
 fn proxies_have_their_normals() {
     let at = |proxy: &Proxy, node: &Affine3A, p: Vec3| proxy.normal(node, p);
     let moved = Affine3A::from_translation(Vec3::X);
@@ -286,7 +301,7 @@ fn what_cannot_be_drawn_is_said_in_a_sentence() {
         Placement::Free(FreePlacement { keys: vec![key], ..FreePlacement::default() })
     };
     let at = FreeKey::at(&moment(Vec3::X, Vec3::Z));
-    let cases: [Case<'_>; 11] = [
+    let cases: [Case<'_>; 13] = [
         (&|h| h.node = Some(3), "node 3"),
         (&|h| h.gamma = f32::NAN, "gamma"),
         (&|h| h.size.x = 0.0, "size"),
@@ -294,6 +309,8 @@ fn what_cannot_be_drawn_is_said_in_a_sentence() {
         (&|h| h.drawing = image(4, 4, |_, _| [255, 255, 255, 100]), "empty drawing"),
         (&|h| h.drawing = image(0, 0, |_, _| [0; 4]), "empty drawing"),
         (&|h| h.proxy = Proxy::Sphere { center: Vec3::NAN }, "finite"),
+        (&|h| h.proxy = Proxy::Ball { center: Vec3::ZERO, radius: f32::NAN }, "radius"),
+        (&|h| h.proxy = Proxy::Ball { center: Vec3::ZERO, radius: 0.0 }, "radius"),
         (&|h| h.placement = free(FreeKey { rotation: f32::NAN, ..at }), "number 1"),
         (&|h| h.placement = free(FreeKey { light: Vec3::ZERO, ..at }), "direction"),
         (&|h| h.placement = free(FreeKey { scale: Vec2::ZERO, ..at }), "scale"),
