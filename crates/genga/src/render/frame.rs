@@ -58,6 +58,7 @@ pub(crate) struct Output {
     pub(crate) lines: bool,
     /// The waves.
     pub(crate) glow: bool,
+    pub(crate) beams: bool,
     /// Whether the glow is dithered for 8 bits a channel.
     pub(crate) dithered: bool,
     /// Linear light instead of sRGB-encoded values.
@@ -86,6 +87,11 @@ pub(crate) fn gbuffer_scale(prepared: &Prepared, view: &View) -> Scale {
 pub(crate) fn has_line_colors(style: &Style) -> bool {
     style.lines.method == LineMethod::Contour
         && style.lines.sets.iter().any(|set| set.color_by != LineColorBy::Fixed)
+}
+
+/// Whether beams must know which strokes are nearer than they.
+pub(crate) fn needs_line_depths(prepared: &Prepared) -> bool {
+    prepared.style.lines.method == LineMethod::Contour && prepared.beams.any_over()
 }
 
 /// A line set for the GPU; `scale` is that of `line_scale`.
@@ -192,7 +198,9 @@ pub(crate) fn frame_values(
                 gpu::FRAME_LINE_COLORS,
             )
             | flag(style.lines.sets.iter().any(bent), gpu::FRAME_SCREEN_CURVATURE)
-            | flag(scale.is_small(), gpu::FRAME_SMALL_DETECTION),
+            | flag(scale.is_small(), gpu::FRAME_SMALL_DETECTION)
+            | flag(needs_line_depths(prepared), gpu::FRAME_LINE_DEPTHS)
+            | flag(output.beams, gpu::FRAME_SHOW_BEAMS),
         line_set_count: style.lines.sets.len().min(4) as u32,
         line_method: match style.lines.method {
             LineMethod::None => gpu::METHOD_NONE,

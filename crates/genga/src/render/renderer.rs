@@ -4,11 +4,15 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::{
     RenderError,
-    frame::{Aim, Output, Tile, frame_values, gbuffer_scale, has_line_colors, viewport},
+    frame::{
+        Aim, Output, Tile, frame_values, gbuffer_scale, has_line_colors, needs_line_depths,
+        viewport,
+    },
     generated::Light,
     gpu::{scope, timing::Timer},
     layouts::Layouts,
     passes::{
+        beams::BeamPass,
         candidates::CandidatePass,
         composite::CompositePass,
         deform::DeformPass,
@@ -34,7 +38,7 @@ use super::{
     targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
-use crate::scene::{Pose, Scene, Wave, WaveMethod};
+use crate::scene::{Beam, Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
 
 /// Draws prepared scenes. Make one per device; it holds pipelines and targets, never a scene.
@@ -60,6 +64,8 @@ pub struct Renderer {
     shadow: OnceLock<ShadowPass>,
     /// Made when the first wave is drawn.
     waves: OnceLock<WavePass>,
+    /// Made when the first beam is drawn.
+    beams: OnceLock<BeamPass>,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
     /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
@@ -128,6 +134,7 @@ impl Renderer {
                 plain: PlainPass::new(device, &layouts),
                 shadow: OnceLock::new(),
                 waves: OnceLock::new(),
+                beams: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
                 turn: Mutex::new(()),
@@ -160,6 +167,7 @@ impl Renderer {
             return Err(RenderError::View { reason });
         }
         crate::scene::validate_waves(&scene.waves, scene.wave_method, scene.nodes.len())?;
+        crate::scene::validate_beams(&scene.beams, scene.nodes.len())?;
         scope::checked(&self.device, || {
             prepared.write_pose(&self.device, &self.queue, scene, pose);
             let mut encoder = self.encoder("deform");
@@ -188,6 +196,25 @@ impl Renderer {
         })
     }
 
+    /// Takes over beams, which may all have changed, and places them at a pose: as
+    /// [`Self::set_pose`] without the geometry. Which surfaces are marked stays as it was prepared.
+    ///
+    /// # Errors
+    /// A beam that cannot be drawn, or what the driver refuses.
+    pub fn set_beams(
+        &self,
+        prepared: &mut Prepared,
+        beams: &[Beam],
+        pose: &Pose,
+    ) -> Result<(), RenderError> {
+        crate::scene::validate_beams(beams, pose.world_from_node.len())?;
+        scope::checked(&self.device, || {
+            let blend = prepared.style.paint.blend_space;
+            prepared.beams.write(&self.device, &self.queue, beams, pose, blend);
+            Ok(())
+        })
+    }
+
     /// Draws a view into `target`, which has the view's size and the given format.
     ///
     /// Values are premultiplied; sRGB and float formats get linear light, others sRGB-encoded
@@ -210,6 +237,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            beams: true,
             dithered: is_8_bit(format),
             linear: is_linear(format),
             straight: false,
@@ -253,6 +281,10 @@ impl Renderer {
         if let Some(depth) = &targets.picture_depth {
             self.depth.run(device, encoder, &prepared.frame, &targets, depth, timer);
         }
+        if targets.size.beams {
+            let pass = self.beams.get_or_init(|| BeamPass::new(device));
+            pass.run(device, encoder, prepared, (&targets, &targets.beams), &aim, timer);
+        }
         match prepared.style.lines.method {
             LineMethod::Contour => self.draw_contours(encoder, prepared, &targets, timer),
             LineMethod::Reference => {
@@ -287,8 +319,9 @@ impl Renderer {
             pixels: tile.size,
             paint_scale: view.supersample,
             gbuffer_scale: gbuffer_scale(prepared, view),
-            line_colors: has_line_colors(&prepared.style),
+            line_colors: has_line_colors(&prepared.style) || needs_line_depths(prepared),
             glow_layers: prepared.waves.layers.len() as u32,
+            beams: !prepared.beams.items.is_empty(),
         })
     }
 
@@ -327,6 +360,7 @@ impl Renderer {
         prepared.highlights.write(&self.queue, prepared, view, &lights);
         prepared.shadings.write(&self.queue, &lights);
         let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
+        lights.extend(prepared.beams.lights());
         // Loops over them end at the first one without weight.
         lights.resize(MAX_LIGHTS, bytemuck::Zeroable::zeroed());
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
@@ -409,6 +443,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            beams: true,
             dithered: true,
             linear: false,
             straight: false,

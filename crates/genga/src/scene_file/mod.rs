@@ -24,6 +24,8 @@
 //! ```
 
 mod assemble;
+mod beam;
+mod beam_place;
 mod camera;
 mod file;
 mod highlight;
@@ -44,6 +46,7 @@ mod wave_tests;
 
 pub use crate::toml_file::Located;
 pub use assemble::Assembled;
+pub use beam::BeamEntry;
 pub use camera::{CameraEntry, OrbitCamera, PlacedCamera, SceneCamera};
 pub use file::{Picture, SceneFile, SceneFileError, json_schema};
 pub use highlight::{

@@ -19,7 +19,7 @@ pub(crate) struct CompositePass {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    made: Mutex<HashMap<(wgpu::TextureFormat, GlowKind), Arc<wgpu::RenderPipeline>>>,
+    made: Mutex<HashMap<(wgpu::TextureFormat, GlowKind, bool), Arc<wgpu::RenderPipeline>>>,
 }
 
 impl CompositePass {
@@ -32,6 +32,9 @@ impl CompositePass {
             (4, B::FloatLayers),
             (5, B::Uniform),
             (6, B::Float),
+            (7, B::FloatLayers),
+            (8, B::Float),
+            (9, B::Depth),
         ];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
@@ -50,6 +53,7 @@ impl CompositePass {
     ) {
         use wgpu::BindingResource as R;
         let colors = targets.line_colors.as_ref().map_or(&targets.no_colors, |[colors, _]| colors);
+        let line_depths = targets.line_colors.as_ref().map_or(&targets.depth, |[_, depth]| depth);
         let group = group(
             device,
             "composite",
@@ -62,9 +66,13 @@ impl CompositePass {
                 (4, R::TextureView(&targets.glow.view)),
                 (5, prepared.waves.glow.as_entire_binding()),
                 (6, R::TextureView(&colors.view)),
+                (7, R::TextureView(&targets.beams.all_layers)),
+                (8, R::TextureView(&targets.beams.places.view)),
+                (9, R::TextureView(&line_depths.view)),
             ],
         );
-        let pipeline = self.pipeline(device, format, prepared.waves.glow_kind(&prepared.style));
+        let glow = prepared.waves.glow_kind(&prepared.style);
+        let pipeline = self.pipeline(device, format, glow, targets.size.beams);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("composite"),
             color_attachments: &[cleared(output, None)],
@@ -81,9 +89,14 @@ impl CompositePass {
         device: &wgpu::Device,
         format: wgpu::TextureFormat,
         glow: GlowKind,
+        beams: bool,
     ) -> Arc<wgpu::RenderPipeline> {
         let number = |on: bool| f64::from(u8::from(on));
-        let constants = [("has_glow", number(glow.shows)), ("glow_mixes", number(glow.mixes))];
+        let constants = [
+            ("has_glow", number(glow.shows)),
+            ("glow_mixes", number(glow.mixes)),
+            ("has_beams", number(beams)),
+        ];
         let make = || {
             Arc::new(device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some("composite"),
@@ -111,6 +124,6 @@ impl CompositePass {
             }))
         };
         let mut made = self.made.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(made.entry((format, glow)).or_insert_with(make))
+        Arc::clone(made.entry((format, glow, beams)).or_insert_with(make))
     }
 }

@@ -1,5 +1,6 @@
 //! One file a pass; each has its shader under `shaders/passes/` by the same name.
 
+pub(crate) mod beams;
 pub(crate) mod candidates;
 pub(crate) mod composite;
 pub(crate) mod deform;

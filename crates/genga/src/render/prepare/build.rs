@@ -6,6 +6,7 @@ use glam::{Vec3, Vec4};
 
 use super::{
     DeformData, DrawItem, NodeDeform, Prepared,
+    beams::{BeamData, beam_of},
     directions::{self, Source},
     dynamic_binding,
     geometry::{Chunk, Geometry, GeometryBuilder},
@@ -24,7 +25,7 @@ use crate::render::{
     gpu::bindings,
     layouts::Layouts,
 };
-use crate::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene, TextureRef};
+use crate::scene::{AlphaMode, BeamShape, Image, Material, Pose, Sampler, Scene, TextureRef};
 use crate::style::{self, LineSet, Style};
 
 /// A mesh, and where the hatching directions of its primitives come from.
@@ -165,6 +166,7 @@ impl<'a> Builder<'a> {
             let shading = shading_of(scene, index, &node.name, &material.name);
             let group = self.material_group(primitive.material, material, &look, shading);
             let highlights = self.highlights.of(index, &node.name, &material.name);
+            let beam = beam_of(scene, index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
                 self.deforms.push((
@@ -191,7 +193,8 @@ impl<'a> Builder<'a> {
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
-                    casts_shadow: look.casts_shadow,
+                    casts_shadow: look.casts_shadow && beam.is_none(),
+                    beam,
                     tests_alpha: material.alpha != AlphaMode::Opaque,
                     center: chunk.center,
                     matrix_first,
@@ -372,6 +375,16 @@ impl<'a> Builder<'a> {
                 shadows::MAX_MAPS
             ));
         }
+        for (i, beam) in self.scene.beams.iter().enumerate() {
+            let is_marked = matches!(beam.shape, BeamShape::Surfaces { .. });
+            if is_marked && !self.draws.iter().any(|draw| draw.beam == Some(i)) {
+                warnings.push(format!(
+                    "beam {i} '{}' marks no surface: no object and material has such names, or a \
+                     later one has them all",
+                    beam.name
+                ));
+            }
+        }
         for (i, shading) in self.scene.shadings.iter().enumerate() {
             let number = i as u32 + 1;
             if !self.draw_values.iter().any(|draw| draw.shading == number) {
@@ -419,6 +432,7 @@ impl<'a> Builder<'a> {
             strokes,
             highlights,
             waves: WaveData::new(device, queue),
+            beams: BeamData::new(device, queue),
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,

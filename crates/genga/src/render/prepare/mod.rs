@@ -1,5 +1,6 @@
 //! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
 
+pub(crate) mod beams;
 mod build;
 mod directions;
 pub(crate) mod geometry;
@@ -20,6 +21,7 @@ use std::collections::HashMap;
 use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
+    beams::BeamData,
     build::Builder,
     geometry::{Chunk, Geometry},
     highlights::Highlights,
@@ -58,6 +60,7 @@ pub struct Prepared {
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
     pub(crate) waves: WaveData,
+    pub(crate) beams: BeamData,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     /// Nodes that depth curves count from: number, and place in the present pose.
@@ -86,6 +89,8 @@ pub(crate) struct DrawItem {
     matrix_first: u32,
     /// What its hatching needs; `None` if it has none.
     pub(crate) hatch: Option<HatchVariant>,
+    /// The beam that it is drawn as, instead of as a surface.
+    pub(crate) beam: Option<usize>,
 }
 
 /// What the deformation of a scene needs.
@@ -156,6 +161,7 @@ impl Prepared {
         pose: &Pose,
     ) {
         self.waves.write(device, queue, &scene.waves, scene.wave_method, pose);
+        self.beams.write(device, queue, &scene.beams, pose, self.style.paint.blend_space);
         let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
         let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
         for deform in &self.deform.nodes {
