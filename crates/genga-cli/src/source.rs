@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use genga::render::{Orbit, ViewCamera};
 use genga::scene::{Beam, BeamMotion, Pose, Scene, Wave, WaveMotion};
 use genga::scene_file::{Picture, SceneCamera, SceneFile};
-use genga::style::Style;
+use genga::style::{Motion, Style};
 use glam::Vec3;
 
 use crate::args::OrbitArgs;
@@ -159,6 +159,12 @@ impl Source {
     /// seconds are added to each model's own.
     pub(crate) fn pose(&self, seconds: Option<f32>) -> Outcome<Pose> {
         Ok(self.moment(seconds)?.pose)
+    }
+
+    /// The poses before a moment that speed lines and smears need; none in other styles.
+    pub(crate) fn past(&self, seconds: Option<f32>, motion: &Motion) -> Outcome<Vec<Pose>> {
+        let moments = motion.moments();
+        moments.iter().map(|before| self.pose(Some(seconds.unwrap_or(0.0) - before))).collect()
     }
 
     /// Everything that moves.

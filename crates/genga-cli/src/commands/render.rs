@@ -129,7 +129,9 @@ impl Shoot<'_> {
             let target = self.names.target(&source.name, &style.name, frame, number);
             saver.check(&target, &layers, &inputs)?;
             let Moment { pose, waves, beams } = source.moment(self.moments.seconds(frame))?;
-            let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
+            let past = source.past(self.moments.seconds(frame), &style.style.motion)?;
+            let scene = &source.scene;
+            let posed = graphics.renderer.set_motion(&mut prepared, scene, &pose, &past);
             graphics.check(&source.name, posed)?;
             if !waves.is_empty() {
                 let method = source.scene.wave_method;

@@ -25,6 +25,7 @@ use super::{
         reference::ReferencePass,
         seams::SeamPass,
         shadow::ShadowPass,
+        speed_lines::SpeedLinePass,
         strokes::StrokePass,
         walk::{WalkPass, lines_group},
         waves::WavePass,
@@ -66,6 +67,8 @@ pub struct Renderer {
     waves: OnceLock<WavePass>,
     /// Made when the first beam is drawn.
     beams: OnceLock<BeamPass>,
+    /// Made when something is fast.
+    speed_lines: OnceLock<SpeedLinePass>,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
     /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
@@ -135,6 +138,7 @@ impl Renderer {
                 shadow: OnceLock::new(),
                 waves: OnceLock::new(),
                 beams: OnceLock::new(),
+                speed_lines: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
                 turn: Mutex::new(()),
@@ -162,16 +166,32 @@ impl Renderer {
         scene: &Scene,
         pose: &Pose,
     ) -> Result<(), RenderError> {
-        if !prepared.fits(scene, pose) {
+        self.set_motion(prepared, scene, pose, &[])
+    }
+
+    /// As [`Self::set_pose`], with the poses before it, for speed lines and smears: at even steps,
+    /// the last one at the shutter's opening (see [`crate::style::Motion::moments`]). Without any
+    /// nothing moves.
+    ///
+    /// # Errors
+    /// A pose of another scene, or what the driver refuses.
+    pub fn set_motion(
+        &self,
+        prepared: &mut Prepared,
+        scene: &Scene,
+        pose: &Pose,
+        past: &[Pose],
+    ) -> Result<(), RenderError> {
+        if !std::iter::once(pose).chain(past).all(|pose| prepared.fits(scene, pose)) {
             let reason = "the pose or scene is not the one that was prepared".to_owned();
             return Err(RenderError::View { reason });
         }
         crate::scene::validate_waves(&scene.waves, scene.wave_method, scene.nodes.len())?;
         crate::scene::validate_beams(&scene.beams, scene.nodes.len())?;
         scope::checked(&self.device, || {
-            prepared.write_pose(&self.device, &self.queue, scene, pose);
+            prepared.write_pose(&self.device, &self.queue, scene, (pose, past));
             let mut encoder = self.encoder("deform");
-            self.deform.run(&mut encoder, prepared, &mut Timer::off());
+            self.deform.run(&self.device, &mut encoder, prepared, &mut Timer::off());
             self.queue.submit([encoder.finish()]);
             Ok(())
         })
@@ -291,6 +311,10 @@ impl Renderer {
                 self.reference.run(device, encoder, &self.layouts, prepared, &targets, timer);
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
+        }
+        if prepared.speed_lines.count > 0 {
+            let pass = self.speed_lines.get_or_init(|| SpeedLinePass::new(device));
+            pass.run(device, encoder, prepared, &targets, timer);
         }
         self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
         targets
@@ -452,7 +476,7 @@ impl Renderer {
         let mut encoder = self.encoder("timed frame");
         scope::checked(device, || {
             if workload != Workload::Waves {
-                self.deform.run(&mut encoder, prepared, timer);
+                self.deform.run(device, &mut encoder, prepared, timer);
             }
             match workload {
                 Workload::Styled => {

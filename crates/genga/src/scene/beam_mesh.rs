@@ -10,7 +10,7 @@ use super::{Beam, BeamShape, Pose, WaveAnchor, WavePlacement};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct BeamMesh {
     pub(crate) positions: Vec<Vec3>,
-    /// Unit normals.
+    /// Unit normals that the ramp is taken by.
     pub(crate) normals: Vec<Vec3>,
     pub(crate) indices: Vec<u32>,
 }
@@ -267,7 +267,7 @@ fn scattered(count: u32, spread: f32, seed: u32) -> Vec<Vec3> {
 
 /// A star: spikes with hollow flanks on a ball.
 fn add_flash(mesh: &mut BeamMesh, radius: f32, spikes: u32, spread: f32, seed: u32) {
-    const BALL: f32 = 0.2;
+    let ball = if spread < 3.0 { 0.1 } else { 0.2 };
     let mut directions = scattered(spikes, spread, seed);
     if spread < 3.0 {
         // A muzzle's flash is longest ahead.
@@ -289,49 +289,48 @@ fn add_flash(mesh: &mut BeamMesh, radius: f32, spikes: u32, spread: f32, seed: u
         }
         points[nearest.0] = *direction;
     }
-    for point in &mut points {
+    let base = mesh.positions.len() as u32;
+    for point in points {
         let spikes: f32 = directions
             .iter()
             .zip(&lengths)
             .map(|(direction, length)| {
-                let angle = (*point - *direction).length();
-                (1.0 - angle / width).max(0.0).powi(3) * (length - BALL)
+                let angle = (point - *direction).length();
+                (1.0 - angle / width).max(0.0).powi(3) * (length - ball)
             })
             .fold(0.0, |sum, spike| sum + spike);
-        *point *= radius * (BALL + spikes.min(1.0 - BALL));
+        mesh.positions.push(point * radius * (ball + spikes.min(1.0 - ball)));
+        mesh.normals.push(point);
     }
-    add_smooth(mesh, &points, &triangles);
+    let mut own = vec![Vec3::ZERO; mesh.positions.len()];
+    for triangle in &triangles {
+        let [a, b, c] = triangle.map(|i| mesh.positions[(base + i) as usize]);
+        let normal = (b - a).cross(c - a);
+        triangle.iter().for_each(|&i| own[(base + i) as usize] += normal);
+    }
+    // Halfway to those of the ball: spikes towards the eye would be holes in its middle.
+    for (normal, own) in mesh.normals.iter_mut().zip(own).skip(base as usize) {
+        *normal = (*normal + own.normalize_or_zero()).normalize_or(*normal);
+    }
+    mesh.indices.extend(triangles.iter().flatten().map(|i| base + i));
 }
 
 /// Balls round a ball.
 fn add_burst(mesh: &mut BeamMesh, radius: f32, lobes: u32, seed: u32) {
     let (points, triangles) = sphere(4);
-    let mut ball = |center: Vec3, radius: f32| {
+    let mut ball = |center: Vec3, own: f32| {
         let base = mesh.positions.len() as u32;
-        mesh.positions.extend(points.iter().map(|p| center + *p * radius));
-        mesh.normals.extend(&points);
+        mesh.positions.extend(points.iter().map(|p| center + *p * own));
+        // Halfway to those of the whole, so that it is hotter in the middle.
+        let whole = |p: Vec3| (p + 0.8 * (center + p * own) / radius).normalize_or(p);
+        mesh.normals.extend(points.iter().map(|p| whole(*p)));
         mesh.indices.extend(triangles.iter().flatten().map(|i| base + i));
     };
     ball(Vec3::ZERO, 0.62 * radius);
     for (i, direction) in scattered(lobes, PI, seed).into_iter().enumerate() {
-        let own = 0.3 + 0.16 * chance(seed, i as u32, 4);
+        let own = 0.2 + 0.26 * chance(seed, i as u32, 4);
         ball(direction * radius * (1.0 - own), radius * own);
     }
-}
-
-/// Adds triangles with the mean normals of their corners.
-fn add_smooth(mesh: &mut BeamMesh, points: &[Vec3], triangles: &[[u32; 3]]) {
-    let base = mesh.positions.len() as u32;
-    let mut normals = vec![Vec3::ZERO; points.len()];
-    for triangle in triangles {
-        let [a, b, c] = triangle.map(|i| points[i as usize]);
-        let normal = (b - a).cross(c - a);
-        triangle.iter().for_each(|&i| normals[i as usize] += normal);
-    }
-    mesh.positions.extend(points);
-    mesh.normals
-        .extend(normals.iter().zip(points).map(|(n, p)| n.normalize_or(p.normalize_or(Vec3::X))));
-    mesh.indices.extend(triangles.iter().flatten().map(|i| base + i));
 }
 
 /// A unit sphere from an octahedron whose edges are halved so many times.

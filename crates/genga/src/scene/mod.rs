@@ -17,6 +17,7 @@ mod node;
 mod pick;
 mod pose;
 mod shading;
+mod surface_point;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -47,6 +48,7 @@ pub use node::{Node, Skin, Transform};
 pub use pick::Hit;
 pub use pose::Pose;
 pub use shading::{FaceShadow, MAX_SHADINGS, Shading};
+pub(crate) use surface_point::{NodePose, SurfacePoint};
 pub use validate::SceneError;
 pub(crate) use validate::{validate_beams, validate_waves};
 pub use wave::{

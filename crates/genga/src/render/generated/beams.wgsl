@@ -12,6 +12,8 @@ const BEAM_HIDES: u32 = 4u;
 
 const BEAM_SMOOTH: u32 = 1u;
 
+const BEAM_TWO_SIDED: u32 = 8u;
+
 const BEFORE_ALL: f32 = 0.99;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
@@ -109,7 +111,8 @@ struct PaletteColor {
 }
 
 fn beam_color(in: BeamPoint) -> vec4f {
-    let t = abs(dot(normalize(in.normal), to_eye(frame, in.p_in_world)));
+    let facing = dot(normalize(in.normal), to_eye(frame, in.p_in_world));
+    let t = select(max(facing, 0.0), abs(facing), (beam.flags & BEAM_TWO_SIDED) != 0u);
     return beam_ramp(beam, t, fwidth(t));
 }
 

@@ -3,6 +3,7 @@
 pub(crate) const BEAM_BEFORE_ALL: u32 = 2u32;
 pub(crate) const BEAM_HIDES: u32 = 4u32;
 pub(crate) const BEAM_SMOOTH: u32 = 1u32;
+pub(crate) const BEAM_TWO_SIDED: u32 = 8u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Beam {
@@ -68,10 +69,18 @@ pub(crate) struct Deform {
     pub(crate) weight_first: u32,
     pub(crate) target_count: u32,
     pub(crate) morph_first: u32,
+    pub(crate) past_offset: u32,
+    pub(crate) smear: f32,
+    pub(crate) smear_from: f32,
+    pub(crate) smear_noise: f32,
+    pub(crate) smear_spacing: f32,
+    pub(crate) smear_seed: u32,
     pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Deform > () == 32, "size of Deform does not match WGSL"
+    std::mem::size_of::< Deform > () == 64, "size of Deform does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Deform, rest_first) == 0,
@@ -102,8 +111,40 @@ const _: () = assert!(
     "offset of Deform.morph_first does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Deform, reserved_0) == 28,
+    std::mem::offset_of!(Deform, past_offset) == 28,
+    "offset of Deform.past_offset does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, smear) == 32,
+    "offset of Deform.smear does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, smear_from) == 36,
+    "offset of Deform.smear_from does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, smear_noise) == 40,
+    "offset of Deform.smear_noise does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, smear_spacing) == 44,
+    "offset of Deform.smear_spacing does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, smear_seed) == 48,
+    "offset of Deform.smear_seed does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, reserved_0) == 52,
     "offset of Deform.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, reserved_1) == 56,
+    "offset of Deform.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, reserved_2) == 60,
+    "offset of Deform.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1618,6 +1659,41 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Specular, reserved_2) == 76,
     "offset of Specular.reserved_2 does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct SpeedLine {
+    pub(crate) a: glam::Vec4,
+    pub(crate) b: glam::Vec4,
+    pub(crate) line_set: u32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< SpeedLine > () == 48, "size of SpeedLine does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, a) == 0, "offset of SpeedLine.a does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, b) == 16, "offset of SpeedLine.b does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, line_set) == 32,
+    "offset of SpeedLine.line_set does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, reserved_0) == 36,
+    "offset of SpeedLine.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, reserved_1) == 40,
+    "offset of SpeedLine.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(SpeedLine, reserved_2) == 44,
+    "offset of SpeedLine.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

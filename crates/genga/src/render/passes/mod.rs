@@ -13,6 +13,7 @@ pub(crate) mod plain;
 pub(crate) mod reference;
 pub(crate) mod seams;
 pub(crate) mod shadow;
+pub(crate) mod speed_lines;
 pub(crate) mod strokes;
 pub(crate) mod surface;
 pub(crate) mod walk;

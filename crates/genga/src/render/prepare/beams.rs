@@ -175,7 +175,8 @@ fn beam_values(beam: &Beam, blend: BlendSpace) -> gpu::Beam {
     let flag = |on: bool, bit: u32| if on { bit } else { 0 };
     values.flags = flag(beam.smooth, gpu::BEAM_SMOOTH)
         | flag(!beam.occluded || beam.order == BeamOrder::Under, gpu::BEAM_BEFORE_ALL)
-        | flag(beam.order == BeamOrder::Hide, gpu::BEAM_HIDES);
+        | flag(beam.order == BeamOrder::Hide, gpu::BEAM_HIDES)
+        | flag(matches!(beam.shape, BeamShape::Surfaces { .. }), gpu::BEAM_TWO_SIDED);
     values
 }
 
