@@ -172,7 +172,7 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     let p_in_world = vec3f(dot(row_x, vec4f(p, 1.0)), dot(row_y, vec4f(p, 1.0)), dot(row_z, vec4f(p, 1.0)));
     var placed = p_in_world;
     if (SMEAR) {
-        placed += smeared(p, p_in_world, joints, weights / total, n, mat3x3f(row_x.xyz, row_y.xyz, row_z.xyz));
+        placed += smeared(p, p_in_world, joints, weights / total, smooth_n, mat3x3f(row_x.xyz, row_y.xyz, row_z.xyz));
     }
     let c_x = cross(row_y.xyz, row_z.xyz);
     let c_y = cross(row_z.xyz, row_x.xyz);
