@@ -257,8 +257,9 @@ fn tiles_equal_the_whole_and_order_does_not_matter() {
             pollster::block_on(picture).expect("a picture")
         };
         let whole = draw(&scene, 4096);
+        assert_eq!(shared.gpu.take_fault(), None, "the driver complained");
         let tiled = draw(&scene, 200 * supersample);
-        for (n, p) in [("w", &whole), ("t", &tiled)] { let mut f = format!("P6\n{} {}\n255\n", p.width, p.height).into_bytes(); f.extend(p.rgba.chunks(4).flat_map(|c| [c[0], c[1], c[2]])); std::fs::write(format!("/tmp/bm/{n}{supersample}.ppm"), f).unwrap(); }
+
         let found = difference(&whole, &tiled, Tolerance::same_picture());
         assert!(!found.is_too_much, "{found:?}");
         let layers = [&whole, &tiled].map(|p| p.bytes(LayerKind::Beam));

@@ -134,8 +134,7 @@ pub(crate) struct BeamTargets {
     pub(crate) samples: Option<Target>,
     pub(crate) place_samples: Option<Target>,
     /// Under the paint, under lines, over lines.
-    pub(crate) layers: [wgpu::TextureView; 3],
-    pub(crate) all_layers: wgpu::TextureView,
+    pub(crate) layers: [Target; 3],
     /// See `OverLines` in `shaders/passes/beams.wesl`.
     pub(crate) places: Target,
 }
@@ -146,40 +145,17 @@ impl BeamTargets {
         let paint = if size.beams { size.pixels.map(|n| n * size.paint_scale) } else { [1, 1] };
         let samples = if size.beams { paint_samples(size.paint_scale) } else { 1 };
         let drawn = Usage::RENDER_ATTACHMENT;
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("beams"),
-            size: wgpu::Extent3d { width: paint[0], height: paint[1], depth_or_array_layers: 3 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: BEAM_FORMAT,
-            usage: drawn | Usage::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = |first: u32, count: u32, dimension| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(dimension),
-                base_array_layer: first,
-                array_layer_count: Some(count),
-                ..Default::default()
-            })
-        };
+        let kept =
+            |label| target(device, label, paint, 1, BEAM_FORMAT, drawn | Usage::TEXTURE_BINDING);
         let sampled = |label| {
             (samples > 1).then(|| target(device, label, paint, samples, BEAM_FORMAT, drawn))
         };
         Self {
             samples: sampled("beam samples"),
             place_samples: sampled("beam place samples"),
-            layers: [0, 1, 2].map(|layer| view(layer, 1, wgpu::TextureViewDimension::D2)),
-            all_layers: view(0, 3, wgpu::TextureViewDimension::D2Array),
-            places: target(
-                device,
-                "beam places",
-                paint,
-                1,
-                BEAM_FORMAT,
-                drawn | Usage::TEXTURE_BINDING,
-            ),
+            // Not layers of one texture: Mesa's software driver resolves samples into the wrong one.
+            layers: [(); 3].map(|()| kept("beams")),
+            places: kept("beam places"),
         }
     }
 }

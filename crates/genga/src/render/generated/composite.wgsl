@@ -6,6 +6,12 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var paint: texture_2d<f32>;
 
+@group(0) @binding(10)
+var beam_places: texture_2d<f32>;
+
+@group(0) @binding(11)
+var line_depths: texture_depth_2d;
+
 @group(0) @binding(2)
 var coverage: texture_2d<f32>;
 
@@ -22,13 +28,13 @@ var<uniform> glow: Glow;
 var line_colors: texture_2d<f32>;
 
 @group(0) @binding(7)
-var beam_layers: texture_2d_array<f32>;
+var beams_under: texture_2d<f32>;
 
 @group(0) @binding(8)
-var beam_places: texture_2d<f32>;
+var beams_through: texture_2d<f32>;
 
 @group(0) @binding(9)
-var line_depths: texture_depth_2d;
+var beams_over: texture_2d<f32>;
 
 const FRAME_BACKGROUND: u32 = 4u;
 
@@ -166,9 +172,9 @@ fn beams_at(frame: Frame, pixel: vec2i) -> BeamPixel {
     for (var y = 0; y < scale; y++) {
         for (var x = 0; x < scale; x++) {
             let texel = pixel * scale + vec2i(x, y);
-            result.under += textureLoad(beam_layers, texel, 0, 0);
-            result.through += textureLoad(beam_layers, texel, 1, 0);
-            result.over += textureLoad(beam_layers, texel, 2, 0);
+            result.under += textureLoad(beams_under, texel, 0);
+            result.through += textureLoad(beams_through, texel, 0);
+            result.over += textureLoad(beams_over, texel, 0);
             place += textureLoad(beam_places, texel, 0);
         }
     }

@@ -71,7 +71,8 @@ impl BeamPass {
         // What lies under the paint comes last: no surface may hide it, but other beams would.
         for layer in [1, 2, 0] {
             let over_lines = layer == 2;
-            let mut attachments = vec![attachment(beams.samples.as_ref(), &beams.layers[layer])];
+            let mut attachments =
+                vec![attachment(beams.samples.as_ref(), &beams.layers[layer].view)];
             if over_lines {
                 attachments.push(attachment(beams.place_samples.as_ref(), &beams.places.view));
             }

@@ -32,9 +32,11 @@ impl CompositePass {
             (4, B::FloatLayers),
             (5, B::Uniform),
             (6, B::Float),
-            (7, B::FloatLayers),
+            (7, B::Float),
             (8, B::Float),
-            (9, B::Depth),
+            (9, B::Float),
+            (10, B::Float),
+            (11, B::Depth),
         ];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
@@ -66,9 +68,11 @@ impl CompositePass {
                 (4, R::TextureView(&targets.glow.view)),
                 (5, prepared.waves.glow.as_entire_binding()),
                 (6, R::TextureView(&colors.view)),
-                (7, R::TextureView(&targets.beams.all_layers)),
-                (8, R::TextureView(&targets.beams.places.view)),
-                (9, R::TextureView(&line_depths.view)),
+                (7, R::TextureView(&targets.beams.layers[0].view)),
+                (8, R::TextureView(&targets.beams.layers[1].view)),
+                (9, R::TextureView(&targets.beams.layers[2].view)),
+                (10, R::TextureView(&targets.beams.places.view)),
+                (11, R::TextureView(&line_depths.view)),
             ],
         );
         let glow = prepared.waves.glow_kind(&prepared.style);
