@@ -110,8 +110,8 @@ fn a_still_pose_has_no_speed_lines_and_no_smear() {
 
 #[test]
 fn the_trailing_side_is_left_behind_by_its_part_of_the_way() {
-    let text =
-        LINES.replace("density = 900", "density = 0") + "[motion.smear]\namount = 0.5\nnoise = 0\n";
+    let text = LINES.replace("density = 900", "density = 0")
+        + "[motion.smear]\namount = 0.5\nnoise = 0\nobjects = [\"fast\"]\n";
     let picture = draw_at(&cubes(), &style(&text), 5.25, false);
     let fast = |x: u32, y: u32| picture.ids(x, y)[0] == 1;
     let [first, last] = columns(&picture, 120..136, fast).expect("the cube is there");

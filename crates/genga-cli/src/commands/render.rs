@@ -10,7 +10,7 @@ use crate::keys;
 use crate::names::Names;
 use crate::output::Output;
 use crate::save::Saver;
-use crate::source::{self, Moment, Source};
+use crate::source::{self, Source};
 use crate::style_choice::{self, StyleChoice};
 use crate::view;
 
@@ -128,20 +128,8 @@ impl Shoot<'_> {
             let number = self.index * count + i;
             let target = self.names.target(&source.name, &style.name, frame, number);
             saver.check(&target, &layers, &inputs)?;
-            let Moment { pose, waves, beams } = source.moment(self.moments.seconds(frame))?;
-            let past = source.past(self.moments.seconds(frame), &style.style.motion)?;
-            let scene = &source.scene;
-            let posed = graphics.renderer.set_motion(&mut prepared, scene, &pose, &past);
-            graphics.check(&source.name, posed)?;
-            if !waves.is_empty() {
-                let method = source.scene.wave_method;
-                let set = graphics.renderer.set_waves(&mut prepared, &waves, method, &pose);
-                graphics.check(&source.name, set)?;
-            }
-            if !beams.is_empty() {
-                let set = graphics.renderer.set_beams(&mut prepared, &beams, &pose);
-                graphics.check(&source.name, set)?;
-            }
+            let seconds = self.moments.seconds(frame);
+            let pose = graphics.set_moment(&mut prepared, source, seconds, &style.style)?;
             let view = view::view(&args.picture, source, self.camera(&pose, &points)?, frame);
             if args.dump_keys {
                 keys::print(&source.name, frame, &prepared, &view)?;

@@ -101,6 +101,9 @@ fn sign_not_zero(v: vec2f) -> vec2f {
 }
 
 fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f, rows: mat3x3f) -> vec3f {
+    if (deform.smear <= 0.0) {
+        return vec3f(0.0);
+    }
     var before = vec3f(0.0);
     for (var i = 0u; i < 4u; i++) {
         if (weights[i] > 0.0) {
@@ -116,7 +119,7 @@ fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f,
     }
     let cofactors = vec3f(dot(cross(rows[1], rows[2]), n), dot(cross(rows[2], rows[0]), n), dot(cross(rows[0], rows[1]), n));
     let trailing = saturate(dot(normalize(scaled(cofactors)), way / length_m));
-    let noise = 0.5 + 0.5 * value_noise(p / deform.smear_spacing, deform.smear_seed).x;
+    let noise = 0.5 + 0.5 * value_noise(p / max(deform.smear_spacing, 1e-6), deform.smear_seed).x;
     return way * deform.smear * fast * trailing * mix(1.0, noise, deform.smear_noise);
 }
 

@@ -200,7 +200,7 @@ impl SpeedLineData {
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let trails = (first - now).normalize_or_zero().dot(normal);
         // Beside the way, too: behind a fist there is only its arm.
-        let facing = ((trails + 0.3) / 0.3).clamp(0.0, 1.0);
+        let facing = ((trails + 0.15) / 0.3).clamp(0.0, 1.0);
         // Also where something is no number.
         if !(strength * facing > 0.0 && speed.is_finite()) {
             return;
