@@ -2,7 +2,8 @@
 
 use genga::render::{LayerKind, View};
 use genga::scene::{
-    Beam, BeamLight, BeamOrder, BeamShape, BeamTone, Material, Scene, WaveAnchor, WavePlacement,
+    Beam, BeamLight, BeamOrder, BeamShape, BeamTone, Material, Scene, Wave, WaveAnchor, WaveOrder,
+    WavePlacement,
 };
 use genga::scene_file::SceneFile;
 use genga::shapes;
@@ -350,4 +351,30 @@ fn marks_that_fit_nothing_are_told() {
         "{:?}",
         prepared.warnings()
     );
+}
+
+#[test]
+fn waves_of_a_rank_are_added_to_its_beams() {
+    let view = ortho_view([256, 128], 2.0);
+    let at = |beam: BeamOrder, wave: Option<WaveOrder>| {
+        let mut scene = squares(beam, 1.0, true);
+        let order = wave.unwrap_or(WaveOrder::Under);
+        let color = Vec4::new(0.0, 0.0, 1.0, 1.0);
+        let wave =
+            wave.map(|_| Wave { order, color, alpha: 1.0, occluded: false, ..Wave::default() });
+        scene.waves.extend(wave);
+        draw(&scene, &gray_lines(), &view).at(128, 60)
+    };
+    for (beam, wave, is_added) in [
+        (BeamOrder::Under, WaveOrder::Under, true),
+        (BeamOrder::LinesThrough, WaveOrder::Under, false),
+        (BeamOrder::LinesThrough, WaveOrder::LinesThrough, true),
+        (BeamOrder::Over, WaveOrder::LinesThrough, false),
+        (BeamOrder::Over, WaveOrder::Over, true),
+        (BeamOrder::LinesThrough, WaveOrder::Over, true),
+    ] {
+        let (without, with) = (at(beam, None), at(beam, Some(wave)));
+        assert_eq!(without, [0, 255, 0, 255]);
+        assert_eq!(with[2] > 100, is_added, "{beam:?} and a wave {wave:?}: {with:?}");
+    }
 }

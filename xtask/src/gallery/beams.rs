@@ -79,7 +79,7 @@ fn motion(punch: &str) -> Sheet {
     let base = "version = 1\nextends = \"american-comic\"\n";
     let lines = format!(
         "{base}[motion]\nshutter = {{ angle_deg = 900, fps = 24 }}\n[motion.speed_lines]\n\
-         threshold = 1.5\ndensity = 90\nmaterials = [\"suit\", \"boots\"]\n"
+         threshold = 1.5\ndensity = 180\nwidth = 1.2\nmaterials = [\"suit\", \"boots\"]\n"
     );
     let smear = format!(
         "{lines}[motion.smear]\nthreshold = 2\namount = 0.3\nobjects = [\"body\", \"hair\"]\n"

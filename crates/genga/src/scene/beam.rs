@@ -149,7 +149,8 @@ pub enum BeamOrder {
 /// (or middle) nearby, through the same ramp as all lights, and takes nothing from others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamLight {
-    /// Strength, ≥ 0; 1 is that of all other lights together.
+    /// Strength, ≥ 0; 1 is that of all other lights together. It grows and shrinks with the beam's
+    /// size and opacity.
     pub intensity: f32,
     /// Metres at which it ends, > 0.
     pub range: f32,

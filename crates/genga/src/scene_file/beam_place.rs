@@ -32,9 +32,15 @@ impl SceneFile {
         let mut beam = entry.beam.clone();
         let (from_nodes, to_nodes): (Vec<usize>, Vec<usize>) =
             (nodes(&entry.from_nodes)?, nodes(&entry.to_nodes)?);
-        if let (Some(seconds), BeamShape::Path { points, .. }) = (entry.trail, &mut beam.shape) {
+        if let (Some(seconds), BeamShape::Path { points, radius, .. }) =
+            (entry.trail, &mut beam.shape)
+        {
+            // In the world already; only what is added to the nodes is left.
             *points = self.trail(&from_nodes, seconds, scene, models)?;
-            // The path is in the world already; only what is added to the nodes is left.
+            // What hardly moves has a thin trail, not a ball.
+            let length: f32 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            let widest = radius[0].max(radius[1]).max(1e-6);
+            *radius = radius.map(|radius| radius * (0.3 * length / widest).clamp(1e-6, 1.0));
         } else {
             match &mut beam.placement {
                 WavePlacement::At { anchor, .. } => anchor.nodes = from_nodes,

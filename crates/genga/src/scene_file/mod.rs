@@ -26,6 +26,8 @@
 mod assemble;
 mod beam;
 mod beam_place;
+#[cfg(test)]
+mod beam_tests;
 mod camera;
 mod file;
 mod highlight;

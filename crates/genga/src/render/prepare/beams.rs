@@ -185,10 +185,19 @@ fn light_of(beam: &Beam, pose: &Pose) -> Option<Light> {
     let light = beam.light.filter(|light| light.intensity > 0.0)?;
     let path = beam.path(pose);
     let (first, last) = (*path.first()?, *path.last()?);
+    // A pose may have no usable numbers; a light of these would spoil the whole picture.
+    if !(first.is_finite() && last.is_finite()) {
+        return None;
+    }
     Some(Light {
         position: first.extend(1.0),
         direction: (last - first).extend(0.0),
-        factors: Vec4::new(light.intensity * beam.opacity, light.range, 1.0, 0.0),
+        factors: Vec4::new(
+            light.intensity * beam.opacity * beam.size.min(1.0),
+            light.range,
+            1.0,
+            0.0,
+        ),
         kind: gpu::LIGHT_BEAM,
         shadow_first: 0,
         shadow_maps: 0,

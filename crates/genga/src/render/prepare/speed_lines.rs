@@ -212,6 +212,9 @@ impl SpeedLineData {
         for (i, pose) in poses.iter().enumerate().skip(1) {
             // The way, drawn out by the factor on its length.
             let next = now + (mean(pose.corners(point)) - now) * part;
+            if !next.is_finite() {
+                break;
+            }
             let radius = |i: usize| width * (1.0 - i as f32 / steps as f32);
             strokes.push(SpeedLine {
                 a: before.extend(radius(i - 1)),
