@@ -6,6 +6,9 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var<storage, read> pieces: array<Piece>;
 
+@group(0) @binding(10)
+var normals: texture_2d<f32>;
+
 @group(0) @binding(2)
 var<storage, read> counters: array<u32>;
 
@@ -27,6 +30,9 @@ var<storage, read_write> states: array<vec4u>;
 @group(0) @binding(8)
 var<storage, read_write> places: array<vec4f>;
 
+@group(0) @binding(9)
+var ids: texture_2d<u32>;
+
 const CORNER_COSINE: f32 = 0.8;
 
 const COUNT_PIECES: u32 = 0u;
@@ -34,6 +40,8 @@ const COUNT_PIECES: u32 = 0u;
 const CURVATURE_REACH: f32 = 8.0;
 
 const FRAME_SCREEN_CURVATURE: u32 = 256u;
+
+const ID_OBJECT: u32 = 16777215u;
 
 const LINK_END: u32 = 1073741823u;
 
@@ -156,6 +164,11 @@ struct Piece {
     own_step: f32
 }
 
+struct Seen {
+    ids: vec2u,
+    normal: vec3f
+}
+
 fn best_partner(end: u32) -> Best {
     let place = key(end);
     var best = 0u;
@@ -200,6 +213,10 @@ fn end_place(end: u32) -> vec2f {
 
 fn end_width(end: u32) -> f32 {
     return unpack2x16float(pieces[end >> 1u].widths)[end & 1u];
+}
+
+fn is_same_face(a: Seen, b: Seen) -> bool {
+    return all(a.ids == b.ids) && dot(a.normal, b.normal) > 0.9;
 }
 
 fn key(end: u32) -> vec2u {
@@ -267,6 +284,31 @@ fn screen_curvature(end: u32) -> f32 {
     return 2.0 * area / max(sides, 1e-6);
 }
 
+fn seam_end(p: vec2f, unit: vec2f, texel: f32) -> f32 {
+    let across = texel * vec2f(-unit.y, unit.x);
+    let before = p - texel * unit;
+    let left = seen_at(before + across);
+    let right = seen_at(before - across);
+    var reach = 0.0;
+    for (var i = 1; i <= 6; i++) {
+        let next = SEAM_GAP * texel * f32(i) / 6.0;
+        let there = p + next * unit;
+        if (!is_same_face(seen_at(there + across), left) || !is_same_face(seen_at(there - across), right)) {
+            break;
+        }
+        reach = next;
+    }
+    return reach;
+}
+
+fn seen_at(p_px: vec2f) -> Seen {
+    let size = vec2i(textureDimensions(ids));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    let at = clamp(texel, vec2i(0), size - 1);
+    let id = textureLoad(ids, at, 0).xy;
+    return Seen(vec2u(id.x & ID_OBJECT, id.y), textureLoad(normals, at, 0).xyz);
+}
+
 fn smoothed(end: u32) -> vec2f {
     let p = end_place(end);
     let other = beyond(end);
@@ -276,7 +318,10 @@ fn smoothed(end: u32) -> vec2f {
         let is_met = (pieces[end >> 1u].sets & meets) != 0u;
         let way = p - place_from(end, 3.0 * texel);
         let unit = way * inverseSqrt(max(dot(way, way), 1e-12));
-        return p + unit * select(0.0, SEAM_GAP * texel, is_met);
+        if (!is_met) {
+            return p;
+        }
+        return p + unit * seam_end(p, unit, texel);
     }
     let reach = SEAM_REACH * texel;
     var sum = 2.0 * p;

@@ -59,6 +59,8 @@ const SAME_FACE: f32 = 0.97;
 
 const SET_HIDDEN: u32 = 1u;
 
+const SMALL_STEP: f32 = 3.0;
+
 struct Course {
     a: vec2f,
     b: vec2f,
@@ -261,7 +263,7 @@ fn is_on_line(side: i32, at: vec2i) -> bool {
     return is_marked(first) && is_marked(second);
 }
 
-fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
+fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
     let at_c = depth_c - (depth_q - slope_q);
@@ -273,7 +275,8 @@ fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
     }
     let t = at_c / (at_c - at_q);
     let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
-    let meets = (t > -0.25 && t < 1.25) || is_even;
+    let is_small = min(abs(at_c), abs(at_q)) < slack;
+    let meets = (t > -0.25 && t < 1.25) || is_even || is_small;
     let inside = clamp(t, 0.0, 1.0);
     return Meeting(meets, inside, depth_c + inside * slope_c);
 }
@@ -286,6 +289,14 @@ fn mixed(a: u32, b: u32) -> u32 {
 
 fn normal_of(at: vec2i) -> vec3f {
     return textureLoad(normals, clamped(at), 0).xyz;
+}
+
+fn seam_slack(frame: Frame, depth: f32) -> f32 {
+    let step = SMALL_STEP * frame.pixel_footprint / frame.gbuffer_scale;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return step / (frame.depth_range.y - frame.depth_range.x);
+    }
+    return step * depth;
 }
 
 fn side_between(c: vec2i, q: vec2i) -> Side {
@@ -316,7 +327,8 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     if (types == 0u) {
         return nothing;
     }
-    let found = meeting(depth_of(c - step), depth_of(c), depth_of(q), depth_of(q + step));
+    let slack = select(0.0, seam_slack(frame, max(depth_of(c), depth_of(q))), (types & ~LINE_CREASE) != 0u);
+    let found = meeting(depth_of(c - step), depth_of(c), depth_of(q), depth_of(q + step), slack);
     if (!found.meets) {
         return nothing;
     }

@@ -497,9 +497,9 @@ fn look_up(t: f32) -> Found {
     else if ((line.types & LINE_SILHOUETTE) != 0u) {
         let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
         let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
-        if (threshold > 0.0 && step > threshold) {
+        if (threshold > 0.0 && step > 0.25 * threshold) {
             types |= LINE_SILHOUETTE;
-            strength = max(strength, min(step / threshold - 1.0, 1.0));
+            strength = max(strength, min(step / (0.25 * threshold) - 1.0, 1.0));
         }
         let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
         let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
