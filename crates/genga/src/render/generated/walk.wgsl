@@ -330,37 +330,37 @@ fn behind_in_pixels(frame: Frame, line_depth: f32, depth: f32) -> f32 {
     return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
+fn common_slope(a: f32, b: f32) -> f32 {
+    return select(0.0, select(b, a, abs(a) < abs(b)), a * b > 0.0);
+}
+
 fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let local = p_px - frame.tile_origin - depth_place();
     let corner = vec2i(floor(local));
     let part = local - vec2f(corner);
+    let low = clamp(corner, vec2i(0), size - 1);
+    let high = clamp(corner + 1, vec2i(0), size - 1);
+    let block = vec4f(textureLoad(depths, low, 0).x, textureLoad(depths, vec2i(high.x, low.y), 0).x, textureLoad(depths, vec2i(low.x, high.y), 0).x, textureLoad(depths, high, 0).x);
+    let beside = block.yxwz;
+    let above = block.zwxy;
+    var level = 1e30;
     var least = 1e30;
-    var is_level = false;
-    let nearest = vec2i(select(vec2f(0.0), vec2f(1.0), part > vec2f(0.5)));
-    for (var i = 0; i < 4; i++) {
-        let pick = (vec2i(i & 1, i >> 1) + nearest) & vec2i(1);
-        let at = clamp(corner + pick, vec2i(0), size - 1);
-        least = min(least, behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x));
-        if (least < -IN_FRONT) {
-            return 0.0;
-        }
-        if (least < slack) {
-            is_level = true;
-        }
-    }
-    if (is_level) {
-        return select(1.0, 0.0, is_own_near(p_px));
-    }
     for (var i = 0; i < 4; i++) {
         let pick = vec2i(i & 1, i >> 1);
         let at = clamp(corner + pick, vec2i(0), size - 1);
         let away = clamp(at + 2 * pick - 1, vec2i(0), size - 1);
-        let depth = textureLoad(depths, at, 0).x;
+        let depth = block[i];
+        let out = depth - vec2f(textureLoad(depths, vec2i(away.x, at.y), 0).x, textureLoad(depths, vec2i(at.x, away.y), 0).x);
         let offset = abs(vec2f(pick) - part);
-        let gone = depth + (depth - textureLoad(depths, vec2i(away.x, at.y), 0).x) * offset.x + (depth - textureLoad(depths, vec2i(at.x, away.y), 0).x) * offset.y;
-        least = min(least, behind_in_pixels(frame, line_depth, gone));
+        let slope = vec2f(common_slope(out.x, beside[i] - depth), common_slope(out.y, above[i] - depth));
+        level = min(level, behind_in_pixels(frame, line_depth, depth + dot(slope, offset)));
+        least = min(least, behind_in_pixels(frame, line_depth, depth + dot(out, offset)));
     }
+    if (level < -IN_FRONT) {
+        return 0.0;
+    }
+    least = min(least, level);
     if (least < slack) {
         return select(1.0, 0.0, is_own_near(p_px));
     }
