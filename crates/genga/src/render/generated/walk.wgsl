@@ -71,6 +71,8 @@ const LINE_SILHOUETTE: u32 = 1u;
 
 const MAX_LIGHTS: u32 = 16u;
 
+const OTHER_IN_FRONT: f32 = 2.0;
+
 const PIECE_COVERED_A: u32 = 256u;
 
 const PIECE_COVERED_B: u32 = 512u;
@@ -346,6 +348,8 @@ fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
     let above = block.zwxy;
     var level = 1e30;
     var least = 1e30;
+    var under_other = 0.0;
+    var nearest_other = 1e30;
     for (var i = 0; i < 4; i++) {
         let pick = vec2i(i & 1, i >> 1);
         let at = clamp(corner + pick, vec2i(0), size - 1);
@@ -354,8 +358,17 @@ fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
         let out = depth - vec2f(textureLoad(depths, vec2i(away.x, at.y), 0).x, textureLoad(depths, vec2i(at.x, away.y), 0).x);
         let offset = abs(vec2f(pick) - part);
         let slope = vec2f(common_slope(out.x, beside[i] - depth), common_slope(out.y, above[i] - depth));
-        level = min(level, behind_in_pixels(frame, line_depth, depth + dot(slope, offset)));
+        let before = behind_in_pixels(frame, line_depth, depth + dot(slope, offset));
+        level = min(level, before);
+        let shown = textureLoad(ids, texel_of(vec2f(at) + 0.5 + frame.tile_origin), 0).x;
+        if (before > slack + OTHER_IN_FRONT && ((shown ^ line.owner) & ID_OBJECT) != 0u) {
+            under_other += (1.0 - offset.x) * (1.0 - offset.y);
+            nearest_other = min(nearest_other, before);
+        }
         least = min(least, behind_in_pixels(frame, line_depth, depth + dot(out, offset)));
+    }
+    if (under_other > 0.5) {
+        return nearest_other;
     }
     if (level < -IN_FRONT) {
         return 0.0;
