@@ -280,7 +280,7 @@ fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
 }
 
 fn seam_slack(frame: Frame, depth: f32) -> f32 {
-    let step = SMALL_STEP * frame.pixel_footprint / frame.gbuffer_scale;
+    let step = SMALL_STEP * frame.pixel_footprint;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return step / (frame.depth_range.y - frame.depth_range.x);
     }

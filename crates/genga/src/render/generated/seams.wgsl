@@ -292,7 +292,7 @@ fn normal_of(at: vec2i) -> vec3f {
 }
 
 fn seam_slack(frame: Frame, depth: f32) -> f32 {
-    let step = SMALL_STEP * frame.pixel_footprint / frame.gbuffer_scale;
+    let step = SMALL_STEP * frame.pixel_footprint;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return step / (frame.depth_range.y - frame.depth_range.x);
     }

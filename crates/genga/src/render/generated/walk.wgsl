@@ -348,6 +348,7 @@ fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
     let above = block.zwxy;
     var level = 1e30;
     var least = 1e30;
+    let is_whole = (frame.flags & FRAME_SMALL_DETECTION) == 0u;
     var under_other = 0.0;
     var nearest_other = 1e30;
     for (var i = 0; i < 4; i++) {
@@ -361,7 +362,7 @@ fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
         let before = behind_in_pixels(frame, line_depth, depth + dot(slope, offset));
         level = min(level, before);
         let shown = textureLoad(ids, texel_of(vec2f(at) + 0.5 + frame.tile_origin), 0).x;
-        if (before > slack + OTHER_IN_FRONT && ((shown ^ line.owner) & ID_OBJECT) != 0u) {
+        if (is_whole && before > slack + OTHER_IN_FRONT && ((shown ^ line.owner) & ID_OBJECT) != 0u) {
             under_other += (1.0 - offset.x) * (1.0 - offset.y);
             nearest_other = min(nearest_other, before);
         }
