@@ -190,7 +190,7 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     let depth_b = textureLoad(depths, clamped(c.at - step, size), 0);
     let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
     if (bits != 0u) {
-        let slack = select(0.0, seam_slack(frame, max(c.depth, q.depth)), (bits & ~LINE_CREASE & 255u) != 0u);
+        let slack = select(0.0, seam_slack(frame, max(c.depth, q.depth), 1.0 / frame.gbuffer_scale), (bits & ~LINE_CREASE & 255u) != 0u);
         let found = meeting(depth_b, c.depth, q.depth, depth_a, slack);
         if (found.meets) {
             bits |= MEETING;
@@ -279,8 +279,8 @@ fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
     return depth * -dot(n.xy, step_px) * scale / facing;
 }
 
-fn seam_slack(frame: Frame, depth: f32) -> f32 {
-    let step = SMALL_STEP * frame.pixel_footprint;
+fn seam_slack(frame: Frame, depth: f32, pixels: f32) -> f32 {
+    let step = SMALL_STEP * frame.pixel_footprint * pixels;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return step / (frame.depth_range.y - frame.depth_range.x);
     }

@@ -55,6 +55,8 @@ const NOWHERE: u32 = 4294967295u;
 
 const PIECE_CLOSED: u32 = 1024u;
 
+const PIECE_FINE: u32 = 16384u;
+
 const PIECE_MEETS_A: u32 = 4096u;
 
 const PIECE_MEETS_B: u32 = 8192u;
@@ -323,7 +325,8 @@ fn smoothed(end: u32) -> vec2f {
         }
         return p + unit * seam_end(p, unit, texel);
     }
-    let reach = SEAM_REACH * texel;
+    let is_fine = (pieces[end >> 1u].sets & PIECE_FINE) != 0u;
+    let reach = SEAM_REACH * select(texel, 1.0, is_fine);
     var sum = 2.0 * p;
     for (var i = 1; i <= 3; i++) {
         let away = reach * f32(i) / 3.0;
