@@ -6,9 +6,6 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var<storage, read> pieces: array<Piece>;
 
-@group(0) @binding(10)
-var normals: texture_2d<f32>;
-
 @group(0) @binding(2)
 var<storage, read> counters: array<u32>;
 
@@ -31,7 +28,7 @@ var<storage, read_write> states: array<vec4u>;
 var<storage, read_write> places: array<vec4f>;
 
 @group(0) @binding(9)
-var ids: texture_2d<u32>;
+var depths: texture_2d<f32>;
 
 const CORNER_COSINE: f32 = 0.8;
 
@@ -39,9 +36,9 @@ const COUNT_PIECES: u32 = 0u;
 
 const CURVATURE_REACH: f32 = 8.0;
 
-const FRAME_SCREEN_CURVATURE: u32 = 256u;
+const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
-const ID_OBJECT: u32 = 16777215u;
+const FRAME_SCREEN_CURVATURE: u32 = 256u;
 
 const LINK_END: u32 = 1073741823u;
 
@@ -50,6 +47,8 @@ const LINK_JUNCTION: u32 = 2147483648u;
 const MAX_AT_PLACE: u32 = 64u;
 
 const MAX_HOPS: u32 = 32u;
+
+const MOST_SEAM_STEPS: i32 = 18;
 
 const NOWHERE: u32 = 4294967295u;
 
@@ -65,7 +64,13 @@ const PIECE_SEAM: u32 = 2048u;
 
 const SEAM_GAP: f32 = 1.5;
 
+const SEAM_LEVEL: f32 = 1.0;
+
 const SEAM_REACH: f32 = 4.0;
+
+const SEAM_SIDE: f32 = 2.0;
+
+const SEAM_STEP: f32 = 0.5;
 
 const SETS: u32 = 15u;
 
@@ -166,11 +171,6 @@ struct Piece {
     own_step: f32
 }
 
-struct Seen {
-    ids: vec2u,
-    normal: vec3f
-}
-
 fn best_partner(end: u32) -> Best {
     let place = key(end);
     var best = 0u;
@@ -201,6 +201,16 @@ fn beyond(end: u32) -> u32 {
     return select(link - 1u, NOWHERE, link == 0u);
 }
 
+fn depth_at(p_px: vec2f) -> f32 {
+    let size = vec2i(textureDimensions(depths));
+    let local = p_px - frame.tile_origin - 0.5;
+    let corner = vec2i(floor(local));
+    let part = local - vec2f(corner);
+    let low = clamp(corner, vec2i(0), size - 1);
+    let high = clamp(corner + 1, vec2i(0), size - 1);
+    return mix(mix(textureLoad(depths, low, 0).x, textureLoad(depths, vec2i(high.x, low.y), 0).x, part.x), mix(textureLoad(depths, vec2i(low.x, high.y), 0).x, textureLoad(depths, high, 0).x, part.x), part.y);
+}
+
 fn direction(end: u32) -> vec2f {
     let piece = end >> 1u;
     let along = pieces[piece].b - pieces[piece].a;
@@ -215,10 +225,6 @@ fn end_place(end: u32) -> vec2f {
 
 fn end_width(end: u32) -> f32 {
     return unpack2x16float(pieces[end >> 1u].widths)[end & 1u];
-}
-
-fn is_same_face(a: Seen, b: Seen) -> bool {
-    return all(a.ids == b.ids) && dot(a.normal, b.normal) > 0.9;
 }
 
 fn key(end: u32) -> vec2u {
@@ -286,29 +292,32 @@ fn screen_curvature(end: u32) -> f32 {
     return 2.0 * area / max(sides, 1e-6);
 }
 
-fn seam_end(p: vec2f, unit: vec2f, texel: f32) -> f32 {
-    let across = texel * vec2f(-unit.y, unit.x);
-    let before = p - texel * unit;
-    let left = seen_at(before + across);
-    let right = seen_at(before - across);
+fn seam_end(p: vec2f, unit: vec2f, most: f32) -> f32 {
+    let across = SEAM_SIDE * vec2f(-unit.y, unit.x);
+    let behind = p - SEAM_SIDE * unit;
+    let before = vec2f(depth_at(behind + across), depth_at(behind - across));
+    let further = behind - SEAM_SIDE * unit;
+    let rise = before - vec2f(depth_at(further + across), depth_at(further - across));
+    let level = SEAM_LEVEL * max(max(before.x, before.y), 1e-30);
+    var unit_depth = frame.pixel_footprint * level;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        unit_depth = SEAM_LEVEL * frame.pixel_footprint / (frame.depth_range.y - frame.depth_range.x);
+    }
     var reach = 0.0;
-    for (var i = 1; i <= 6; i++) {
-        let next = SEAM_GAP * texel * f32(i) / 6.0;
+    for (var i = 1; i <= MOST_SEAM_STEPS; i++) {
+        let next = SEAM_STEP * f32(i);
+        if (next > most) {
+            break;
+        }
         let there = p + next * unit;
-        if (!is_same_face(seen_at(there + across), left) || !is_same_face(seen_at(there - across), right)) {
+        let gone = before + rise * ((next + SEAM_SIDE) / SEAM_SIDE);
+        let found = vec2f(depth_at(there + across), depth_at(there - across));
+        if (any(abs(found - gone) > vec2f(unit_depth))) {
             break;
         }
         reach = next;
     }
     return reach;
-}
-
-fn seen_at(p_px: vec2f) -> Seen {
-    let size = vec2i(textureDimensions(ids));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    let at = clamp(texel, vec2i(0), size - 1);
-    let id = textureLoad(ids, at, 0).xy;
-    return Seen(vec2u(id.x & ID_OBJECT, id.y), textureLoad(normals, at, 0).xyz);
 }
 
 fn smoothed(end: u32) -> vec2f {
@@ -323,7 +332,7 @@ fn smoothed(end: u32) -> vec2f {
         if (!is_met) {
             return p;
         }
-        return p + unit * seam_end(p, unit, texel);
+        return p + unit * seam_end(p, unit, SEAM_GAP * texel);
     }
     let is_fine = (pieces[end >> 1u].sets & PIECE_FINE) != 0u;
     let reach = SEAM_REACH * select(texel, 1.0, is_fine);

@@ -56,7 +56,7 @@ const LINE_OBJECT: u32 = 4u;
 
 const LINE_USER: u32 = 32u;
 
-const MOST_PIXELS: i32 = 6;
+const MOST_PIXELS: i32 = 7;
 
 const PIECE_FINE: u32 = 16384u;
 
@@ -274,8 +274,8 @@ fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
 }
 
 fn fine_meeting(c: vec2i, step: vec2i, differs: bool) -> FineMeeting {
-    let first = vec2i(floor((vec2f(c) + 0.5) / frame.gbuffer_scale));
-    let pixels = i32(ceil(1.0 / frame.gbuffer_scale));
+    let first = vec2i(floor((vec2f(c) + 0.5) / frame.gbuffer_scale)) - step;
+    let pixels = i32(ceil(1.0 / frame.gbuffer_scale)) + 1;
     let size = vec2i(textureDimensions(depths));
     var at = array<f32, 4>();
     for (var i = 0; i < 4; i++) {
@@ -402,6 +402,9 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
         let fine = fine_meeting(c, step, differs);
         if (fine.is_found) {
             return Side(select(0u, types, fine.meets), fine.p_px, picture_depth(fine.depth), crease_strength(turn), true);
+        }
+        if (!differs) {
+            return nothing;
         }
     }
     let slack = select(0.0, seam_slack(frame, max(depth_of(c), depth_of(q)), 1.0), differs);

@@ -574,7 +574,7 @@ fn mark(p_px: vec2f) {
     let size = vec2i(textureDimensions(ids));
     let place = (p_px - frame.tile_origin) * frame.gbuffer_scale;
     let middle = texel_of(p_px);
-    let reach = 0.9 + 0.7 * frame.gbuffer_scale;
+    let reach = 1.2 + 0.4 * frame.gbuffer_scale;
     for (var y = max(middle.y - 1, 0); y <= min(middle.y + 1, size.y - 1); y++) {
         for (var x = max(middle.x - 1, 0); x <= min(middle.x + 1, size.x - 1); x++) {
             if (any(abs(vec2f(vec2i(x, y)) + 0.5 - place) > vec2f(reach))) {

@@ -36,8 +36,7 @@ impl LinkPass {
             (6, B::StorageWrite),
             (7, B::StorageWrite),
             (8, B::StorageWrite),
-            (9, B::Uint),
-            (10, B::Float),
+            (9, B::Float),
         ];
         let layout = layout(device, "link", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "link", &[&layout]);
@@ -77,8 +76,7 @@ impl LinkPass {
                     (6, strokes.ranks[1 - here].as_entire_binding()),
                     (7, strokes.states.as_entire_binding()),
                     (8, strokes.places.as_entire_binding()),
-                    (9, R::TextureView(&targets.ids.view)),
-                    (10, R::TextureView(&targets.normal.view)),
+                    (9, R::TextureView(targets.full_depth())),
                 ],
             )
         };
