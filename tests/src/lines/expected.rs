@@ -135,20 +135,18 @@ fn edge_lines(
         }
         return;
     };
-    if !seen(f) && !seen(g) {
-        return;
-    }
+    let is_seen = seen(f) || seen(g);
     let faces = [f, g];
     let [a, b] = faces.map(|face| &triangles[face]);
     let angle = a.outward.angle_between(b.outward).to_degrees();
     let is_hard = (0..2).any(|end| f_normals[end].dot(g_normals[end]) < 1.0 - 1e-6);
     let is_broad = broad(f) || broad(g);
-    if angle > crease_deg - NEAR_THRESHOLD_DEG {
+    if is_seen && angle > crease_deg - NEAR_THRESHOLD_DEG {
         // Between faces that are shaded as one surface, the picture shows no crease.
         let must = is_hard && is_broad && angle > crease_deg + NEAR_THRESHOLD_DEG;
         lines.push(whole(Kind::Crease, faces, must));
     }
-    if a.owner != b.owner {
+    if is_seen && a.owner != b.owner {
         lines.push(whole(Kind::Seam, faces, is_broad));
     }
     if !is_hard {
@@ -166,9 +164,11 @@ fn edge_lines(
         let turned = facing.map(|at| at[0] + (at[1] - at[0]) * middle > 0.0);
         if turned[0] != turned[1] && pair[0] < pair[1] {
             let ends = [pair[0], pair[1]].map(|t| edge.ends[0].lerp(edge.ends[1], t));
-            // Between normals that hardly differ it is as thin as a contour that turns away.
-            let must = is_broad && angle > NEAR_THRESHOLD_DEG;
-            lines.push(Line { ends, kind: Kind::Silhouette, faces, slack: 0.0, must });
+            // Between normals that hardly differ it is as thin as a contour that turns away. Where
+            // both planes have turned away, but not yet the normals, it joins outline and contour.
+            let must = is_seen && is_broad && angle > NEAR_THRESHOLD_DEG;
+            let slack = if is_seen { 0.0 } else { (edge.ends[1] - edge.ends[0]).length() };
+            lines.push(Line { ends, kind: Kind::Silhouette, faces, slack, must });
         }
     }
 }

@@ -283,6 +283,7 @@ pub fn measure_owners(scene: &Scene, width: f64, view: &View, name_of_picture: &
     let hits = cast(view, &sight.triangles);
     let mut figures = Figures::default();
     let reach = 0.5 * width + OFF_PX;
+    let size = DVec2::new(f64::from(view.size[0]), f64::from(view.size[1]));
     for (node, name) in scene.nodes.iter().enumerate().map(|(n, node)| (n, &node.name)) {
         if scene.nodes[node].mesh.is_none() {
             continue;
@@ -314,7 +315,7 @@ pub fn measure_owners(scene: &Scene, width: f64, view: &View, name_of_picture: &
                 continue;
             }
             let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            let plane = &sight.triangles[hit.triangle];
+            let beside = &sight.triangles[hit.triangle];
             let cells = reach.ceil() as i64;
             let (column, row) = (i64::from(x), i64::from(y));
             let near = (row - cells..=row + cells)
@@ -326,6 +327,18 @@ pub fn measure_owners(scene: &Scene, width: f64, view: &View, name_of_picture: &
             let mut all_hidden = true;
             for place in near {
                 any = true;
+                // What hides it there; beyond its edge, as it would go on.
+                let nearest = (-1..=1)
+                    .flat_map(|y| (-1..=1).map(move |x| DVec2::new(f64::from(x), f64::from(y))))
+                    .map(|step| (place.p_px + step).floor())
+                    .filter(|at| at.cmpge(DVec2::ZERO).all() && at.cmplt(size).all())
+                    .filter_map(|at| Some((at, seen(at.x as u32, at.y as u32)?.triangle)))
+                    .filter(|(_, triangle)| sight.triangles[*triangle].owner.0 == before)
+                    .min_by(|(a, _), (b, _)| {
+                        let away = |at: &DVec2| (*at + 0.5 - place.p_px).length();
+                        away(a).total_cmp(&away(b))
+                    });
+                let plane = nearest.map_or(beside, |(_, triangle)| &sight.triangles[triangle]);
                 let ray = sight.eye.ray(place.p_px);
                 let along = ray.direction.dot(plane.outward);
                 let t = (plane.corners[0] - ray.origin).dot(plane.outward) / along;

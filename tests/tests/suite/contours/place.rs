@@ -13,7 +13,6 @@ use glam::DVec3;
 use super::ink_of;
 
 #[test]
-#[ignore = "short seams and ends on the teapot are not exact yet"]
 fn expected_lines_are_drawn_whole_and_nothing_else() {
     for name in SUBJECTS {
         let scene = subject(name);
@@ -33,7 +32,6 @@ fn expected_lines_are_drawn_whole_and_nothing_else() {
 }
 
 #[test]
-#[ignore = "lines reach one or two pixels over what cuts them off"]
 fn no_object_is_drawn_over_what_hides_it() {
     for name in ["cube-before-plane", "teapot-on-box", "two-boxes"] {
         let scene = subject(name);

@@ -51,6 +51,8 @@ const MIN_FACING: f32 = 0.1;
 
 const ROWS: i32 = 8;
 
+const SMALL_STEP: f32 = 3.0;
+
 struct Detect {
     depth: f32,
     laplacian: f32,
@@ -188,7 +190,8 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     let depth_b = textureLoad(depths, clamped(c.at - step, size), 0);
     let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
     if (bits != 0u) {
-        let found = meeting(depth_b, c.depth, q.depth, depth_a);
+        let slack = select(0.0, seam_slack(frame, max(c.depth, q.depth), 1.0 / frame.gbuffer_scale), (bits & ~LINE_CREASE & 255u) != 0u);
+        let found = meeting(depth_b, c.depth, q.depth, depth_a, slack);
         if (found.meets) {
             bits |= MEETING;
         }
@@ -227,7 +230,7 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
     return frame.pixel_footprint * distance;
 }
 
-fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
+fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
     let at_c = depth_c - (depth_q - slope_q);
@@ -239,7 +242,8 @@ fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
     }
     let t = at_c / (at_c - at_q);
     let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
-    let meets = (t > -0.25 && t < 1.25) || is_even;
+    let is_small = min(abs(at_c), abs(at_q)) < slack;
+    let meets = (t > -0.25 && t < 1.25) || is_even || is_small;
     let inside = clamp(t, 0.0, 1.0);
     return Meeting(meets, inside, depth_c + inside * slope_c);
 }
@@ -273,6 +277,14 @@ fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
     let v = vec3f(centre.x * scale, -centre.y * scale, -1.0);
     let facing = max(-dot(n, v), MIN_FACING * length(v));
     return depth * -dot(n.xy, step_px) * scale / facing;
+}
+
+fn seam_slack(frame: Frame, depth: f32, pixels: f32) -> f32 {
+    let step = SMALL_STEP * frame.pixel_footprint * pixels;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return step / (frame.depth_range.y - frame.depth_range.x);
+    }
+    return step * depth;
 }
 
 fn strength(margin: f32) -> u32 {

@@ -27,11 +27,16 @@ var<storage, read_write> states: array<vec4u>;
 @group(0) @binding(8)
 var<storage, read_write> places: array<vec4f>;
 
+@group(0) @binding(9)
+var depths: texture_2d<f32>;
+
 const CORNER_COSINE: f32 = 0.8;
 
 const COUNT_PIECES: u32 = 0u;
 
 const CURVATURE_REACH: f32 = 8.0;
+
+const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SCREEN_CURVATURE: u32 = 256u;
 
@@ -43,9 +48,13 @@ const MAX_AT_PLACE: u32 = 64u;
 
 const MAX_HOPS: u32 = 32u;
 
+const MOST_SEAM_STEPS: i32 = 18;
+
 const NOWHERE: u32 = 4294967295u;
 
 const PIECE_CLOSED: u32 = 1024u;
+
+const PIECE_FINE: u32 = 16384u;
 
 const PIECE_MEETS_A: u32 = 4096u;
 
@@ -55,7 +64,13 @@ const PIECE_SEAM: u32 = 2048u;
 
 const SEAM_GAP: f32 = 1.5;
 
+const SEAM_LEVEL: f32 = 1.0;
+
 const SEAM_REACH: f32 = 4.0;
+
+const SEAM_SIDE: f32 = 2.0;
+
+const SEAM_STEP: f32 = 0.5;
 
 const SETS: u32 = 15u;
 
@@ -186,6 +201,16 @@ fn beyond(end: u32) -> u32 {
     return select(link - 1u, NOWHERE, link == 0u);
 }
 
+fn depth_at(p_px: vec2f) -> f32 {
+    let size = vec2i(textureDimensions(depths));
+    let local = p_px - frame.tile_origin - 0.5;
+    let corner = vec2i(floor(local));
+    let part = local - vec2f(corner);
+    let low = clamp(corner, vec2i(0), size - 1);
+    let high = clamp(corner + 1, vec2i(0), size - 1);
+    return mix(mix(textureLoad(depths, low, 0).x, textureLoad(depths, vec2i(high.x, low.y), 0).x, part.x), mix(textureLoad(depths, vec2i(low.x, high.y), 0).x, textureLoad(depths, high, 0).x, part.x), part.y);
+}
+
 fn direction(end: u32) -> vec2f {
     let piece = end >> 1u;
     let along = pieces[piece].b - pieces[piece].a;
@@ -267,6 +292,34 @@ fn screen_curvature(end: u32) -> f32 {
     return 2.0 * area / max(sides, 1e-6);
 }
 
+fn seam_end(p: vec2f, unit: vec2f, most: f32) -> f32 {
+    let across = SEAM_SIDE * vec2f(-unit.y, unit.x);
+    let behind = p - SEAM_SIDE * unit;
+    let before = vec2f(depth_at(behind + across), depth_at(behind - across));
+    let further = behind - SEAM_SIDE * unit;
+    let rise = before - vec2f(depth_at(further + across), depth_at(further - across));
+    let level = SEAM_LEVEL * max(max(before.x, before.y), 1e-30);
+    var unit_depth = frame.pixel_footprint * level;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        unit_depth = SEAM_LEVEL * frame.pixel_footprint / (frame.depth_range.y - frame.depth_range.x);
+    }
+    var reach = 0.0;
+    for (var i = 1; i <= MOST_SEAM_STEPS; i++) {
+        let next = SEAM_STEP * f32(i);
+        if (next > most) {
+            break;
+        }
+        let there = p + next * unit;
+        let gone = before + rise * ((next + SEAM_SIDE) / SEAM_SIDE);
+        let found = vec2f(depth_at(there + across), depth_at(there - across));
+        if (any(abs(found - gone) > vec2f(unit_depth))) {
+            break;
+        }
+        reach = next;
+    }
+    return reach;
+}
+
 fn smoothed(end: u32) -> vec2f {
     let p = end_place(end);
     let other = beyond(end);
@@ -276,9 +329,13 @@ fn smoothed(end: u32) -> vec2f {
         let is_met = (pieces[end >> 1u].sets & meets) != 0u;
         let way = p - place_from(end, 3.0 * texel);
         let unit = way * inverseSqrt(max(dot(way, way), 1e-12));
-        return p + unit * select(0.0, SEAM_GAP * texel, is_met);
+        if (!is_met) {
+            return p;
+        }
+        return p + unit * seam_end(p, unit, SEAM_GAP * texel);
     }
-    let reach = SEAM_REACH * texel;
+    let is_fine = (pieces[end >> 1u].sets & PIECE_FINE) != 0u;
+    let reach = SEAM_REACH * select(texel, 1.0, is_fine);
     var sum = 2.0 * p;
     for (var i = 1; i <= 3; i++) {
         let away = reach * f32(i) / 3.0;

@@ -9,6 +9,9 @@ var<storage, read_write> pieces: array<Piece>;
 @group(0) @binding(3)
 var<storage, read_write> counters: array<atomic<u32>>;
 
+@group(0) @binding(5)
+var depths: texture_2d<f32>;
+
 @group(0) @binding(6)
 var ids: texture_2d<u32>;
 
@@ -37,9 +40,13 @@ const FRAME_LINE_COLORS: u32 = 128u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
+const FRAME_SMALL_DETECTION: u32 = 512u;
+
 const ID_OBJECT: u32 = 16777215u;
 
 const ID_SETS_SHIFT: u32 = 24u;
+
+const LEAST_BEND: f32 = 2e-6;
 
 const LINE_CREASE: u32 = 2u;
 
@@ -48,6 +55,10 @@ const LINE_MATERIAL: u32 = 8u;
 const LINE_OBJECT: u32 = 4u;
 
 const LINE_USER: u32 = 32u;
+
+const MOST_PIXELS: i32 = 7;
+
+const PIECE_FINE: u32 = 16384u;
 
 const PIECE_MEETS_A: u32 = 4096u;
 
@@ -58,6 +69,8 @@ const PIECE_SEAM: u32 = 2048u;
 const SAME_FACE: f32 = 0.97;
 
 const SET_HIDDEN: u32 = 1u;
+
+const SMALL_STEP: f32 = 3.0;
 
 struct Course {
     a: vec2f,
@@ -93,6 +106,13 @@ struct Detect {
     max_radius: f32,
     reserved_0: f32,
     reserved_1: f32
+}
+
+struct FineMeeting {
+    is_found: bool,
+    meets: bool,
+    p_px: vec2f,
+    depth: f32
 }
 
 struct Frame {
@@ -186,7 +206,8 @@ struct Side {
     types: u32,
     p_px: vec2f,
     depth: f32,
-    crease: f32
+    crease: f32,
+    is_fine: bool
 }
 
 fn append(t0: f32, t1: f32, widths: vec2f, sets: u32, before: u32, key_a: vec2u, key_b: vec2u) -> u32 {
@@ -235,11 +256,55 @@ fn depth_of(at: vec2i) -> f32 {
     return textureLoad(own_depths, clamped(at), 0).x;
 }
 
+fn depth_place() -> vec2f {
+    if ((frame.flags & FRAME_SMALL_DETECTION) == 0u) {
+        return vec2f(0.5);
+    }
+    if (frame.paint_scale < 1.5) {
+        return vec2f(0.375, 0.125);
+    }
+    return vec2f((floor(0.5 * frame.paint_scale) + 0.5) / frame.paint_scale);
+}
+
 fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return mix(frame.depth_range.y, frame.depth_range.x, depth);
     }
     return frame.depth_range.x / max(depth, 1e-30);
+}
+
+fn fine_meeting(c: vec2i, step: vec2i, differs: bool) -> FineMeeting {
+    let first = vec2i(floor((vec2f(c) + 0.5) / frame.gbuffer_scale)) - step;
+    let pixels = i32(ceil(1.0 / frame.gbuffer_scale)) + 1;
+    let size = vec2i(textureDimensions(depths));
+    var at = array<f32, 4>();
+    for (var i = 0; i < 4; i++) {
+        at[i] = textureLoad(depths, clamp(first + (i - 1) * step, vec2i(0), size - 1), 0).x;
+    }
+    var best = at;
+    var best_bend = -1.0;
+    var place = 0;
+    for (var i = 0; i <= MOST_PIXELS; i++) {
+        if (i > pixels) {
+            break;
+        }
+        let rise = at[2] - at[1];
+        let bend = abs(rise - (at[1] - at[0])) + abs(rise - (at[3] - at[2]));
+        if (bend > best_bend) {
+            best_bend = bend;
+            best = at;
+            place = i;
+        }
+        at[0] = at[1];
+        at[1] = at[2];
+        at[2] = at[3];
+        at[3] = textureLoad(depths, clamp(first + (i + 3) * step, vec2i(0), size - 1), 0).x;
+    }
+    let nearest = max(best[1], best[2]);
+    let slack = select(0.0, seam_slack(frame, nearest, 1.0), differs);
+    let found = meeting(best[0], best[1], best[2], best[3], slack);
+    let p_px = vec2f(first) + depth_place() + (f32(place) + found.at) * vec2f(step);
+    return FineMeeting(best_bend > LEAST_BEND * nearest, found.meets, p_px + frame.tile_origin, found.depth);
 }
 
 fn in_space(t: f32) -> f32 {
@@ -261,7 +326,7 @@ fn is_on_line(side: i32, at: vec2i) -> bool {
     return is_marked(first) && is_marked(second);
 }
 
-fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
+fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
     let at_c = depth_c - (depth_q - slope_q);
@@ -273,7 +338,8 @@ fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32) -> Meeting {
     }
     let t = at_c / (at_c - at_q);
     let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
-    let meets = (t > -0.25 && t < 1.25) || is_even;
+    let is_small = min(abs(at_c), abs(at_q)) < slack;
+    let meets = (t > -0.25 && t < 1.25) || is_even || is_small;
     let inside = clamp(t, 0.0, 1.0);
     return Meeting(meets, inside, depth_c + inside * slope_c);
 }
@@ -288,8 +354,23 @@ fn normal_of(at: vec2i) -> vec3f {
     return textureLoad(normals, clamped(at), 0).xyz;
 }
 
+fn picture_depth(depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return distance_from_depth(frame, depth);
+    }
+    return depth / frame.depth_range.x;
+}
+
+fn seam_slack(frame: Frame, depth: f32, pixels: f32) -> f32 {
+    let step = SMALL_STEP * frame.pixel_footprint * pixels;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return step / (frame.depth_range.y - frame.depth_range.x);
+    }
+    return step * depth;
+}
+
 fn side_between(c: vec2i, q: vec2i) -> Side {
-    let nothing = Side(0u, vec2f(0.0), 0.0, 0.0);
+    let nothing = Side(0u, vec2f(0.0), 0.0, 0.0, false);
     let id_c = textureLoad(ids, clamped(c), 0).xy;
     let id_q = textureLoad(ids, clamped(q), 0).xy;
     if (id_c.x == 0u || id_q.x == 0u) {
@@ -316,16 +397,24 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     if (types == 0u) {
         return nothing;
     }
-    let found = meeting(depth_of(c - step), depth_of(c), depth_of(q), depth_of(q + step));
+    let differs = (types & ~LINE_CREASE) != 0u;
+    if ((frame.flags & FRAME_SMALL_DETECTION) != 0u) {
+        let fine = fine_meeting(c, step, differs);
+        if (fine.is_found) {
+            return Side(select(0u, types, fine.meets), fine.p_px, picture_depth(fine.depth), crease_strength(turn), true);
+        }
+        if (!differs) {
+            return nothing;
+        }
+    }
+    let slack = select(0.0, seam_slack(frame, max(depth_of(c), depth_of(q)), 1.0), differs);
+    let found = meeting(depth_of(c - step), depth_of(c), depth_of(q), depth_of(q + step), slack);
     if (!found.meets) {
         return nothing;
     }
     let texel = vec2f(c) + 0.5 + found.at * vec2f(step);
-    var depth = found.depth / frame.depth_range.x;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        depth = distance_from_depth(frame, found.depth);
-    }
-    return Side(types, texel / frame.gbuffer_scale + frame.tile_origin, depth, crease_strength(turn));
+    let p_px = texel / frame.gbuffer_scale + frame.tile_origin;
+    return Side(types, p_px, picture_depth(found.depth), crease_strength(turn), false);
 }
 
 fn side_key(at: vec2i, vertical: u32) -> vec2u {
@@ -363,6 +452,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     var count = 0u;
     var types = 0u;
     var crease = 0.0;
+    var kind = PIECE_SEAM | PIECE_FINE;
     var middle = vec2f(0.0);
     var depth = 0.0;
     for (var i = 0; i < 4; i++) {
@@ -370,6 +460,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             count += 1u;
             types |= sides[i].types;
             crease = max(crease, sides[i].crease);
+            kind &= select(~PIECE_FINE, ~0u, sides[i].is_fine);
             middle += sides[i].p_px;
             depth += sides[i].depth;
         }
@@ -407,7 +498,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     line.widths = vec2f(1.0);
     line.lights = vec2f(0.5);
     line.order = mixed(keys[0].x, keys[0].y);
-    var meets = PIECE_SEAM;
+    var meets = kind;
     if (count == 2u) {
         var is_first = true;
         for (var i = 0; i < 4; i++) {
@@ -442,7 +533,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         line.depth_b = depth;
         line.key_b = side_key(at, 1u) ^ vec2u(1073741824u, 1u);
         line.order = line.order + 1u;
-        append(0.0, 1.0, vec2f(width), sets | PIECE_SEAM, 0u, line.key_a, line.key_b);
+        append(0.0, 1.0, vec2f(width), sets | kind, 0u, line.key_a, line.key_b);
     }
 }
 

@@ -1151,6 +1151,7 @@ pub(crate) const METHOD_RIM: u32 = 4u32;
 pub(crate) const PIECE_CLOSED: u32 = 1024u32;
 pub(crate) const PIECE_COVERED_A: u32 = 256u32;
 pub(crate) const PIECE_COVERED_B: u32 = 512u32;
+pub(crate) const PIECE_FINE: u32 = 16384u32;
 pub(crate) const PIECE_MEETS_A: u32 = 4096u32;
 pub(crate) const PIECE_MEETS_B: u32 = 8192u32;
 pub(crate) const PIECE_SEAM: u32 = 2048u32;

@@ -73,6 +73,8 @@ const LINE_SILHOUETTE: u32 = 1u;
 
 const MAX_LIGHTS: u32 = 16u;
 
+const OTHER_IN_FRONT: f32 = 2.0;
+
 const PIECE_COVERED_A: u32 = 256u;
 
 const PIECE_COVERED_B: u32 = 512u;
@@ -332,37 +334,49 @@ fn behind_in_pixels(frame: Frame, line_depth: f32, depth: f32) -> f32 {
     return (surface_inverse - line_depth) * line_distance / frame.pixel_footprint;
 }
 
+fn common_slope(a: f32, b: f32) -> f32 {
+    return select(0.0, select(b, a, abs(a) < abs(b)), a * b > 0.0);
+}
+
 fn covered_by(p_px: vec2f, line_depth: f32, slack: f32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let local = p_px - frame.tile_origin - depth_place();
     let corner = vec2i(floor(local));
     let part = local - vec2f(corner);
+    let low = clamp(corner, vec2i(0), size - 1);
+    let high = clamp(corner + 1, vec2i(0), size - 1);
+    let block = vec4f(textureLoad(depths, low, 0).x, textureLoad(depths, vec2i(high.x, low.y), 0).x, textureLoad(depths, vec2i(low.x, high.y), 0).x, textureLoad(depths, high, 0).x);
+    let beside = block.yxwz;
+    let above = block.zwxy;
+    var level = 1e30;
     var least = 1e30;
-    var is_level = false;
-    let nearest = vec2i(select(vec2f(0.0), vec2f(1.0), part > vec2f(0.5)));
-    for (var i = 0; i < 4; i++) {
-        let pick = (vec2i(i & 1, i >> 1) + nearest) & vec2i(1);
-        let at = clamp(corner + pick, vec2i(0), size - 1);
-        least = min(least, behind_in_pixels(frame, line_depth, textureLoad(depths, at, 0).x));
-        if (least < -IN_FRONT) {
-            return 0.0;
-        }
-        if (least < slack) {
-            is_level = true;
-        }
-    }
-    if (is_level) {
-        return select(1.0, 0.0, is_own_near(p_px));
-    }
+    let is_whole = (frame.flags & FRAME_SMALL_DETECTION) == 0u;
+    var under_other = 0.0;
+    var nearest_other = 1e30;
     for (var i = 0; i < 4; i++) {
         let pick = vec2i(i & 1, i >> 1);
         let at = clamp(corner + pick, vec2i(0), size - 1);
         let away = clamp(at + 2 * pick - 1, vec2i(0), size - 1);
-        let depth = textureLoad(depths, at, 0).x;
+        let depth = block[i];
+        let out = depth - vec2f(textureLoad(depths, vec2i(away.x, at.y), 0).x, textureLoad(depths, vec2i(at.x, away.y), 0).x);
         let offset = abs(vec2f(pick) - part);
-        let gone = depth + (depth - textureLoad(depths, vec2i(away.x, at.y), 0).x) * offset.x + (depth - textureLoad(depths, vec2i(at.x, away.y), 0).x) * offset.y;
-        least = min(least, behind_in_pixels(frame, line_depth, gone));
+        let slope = vec2f(common_slope(out.x, beside[i] - depth), common_slope(out.y, above[i] - depth));
+        let before = behind_in_pixels(frame, line_depth, depth + dot(slope, offset));
+        level = min(level, before);
+        let shown = textureLoad(ids, texel_of(vec2f(at) + 0.5 + frame.tile_origin), 0).x;
+        if (is_whole && before > slack + OTHER_IN_FRONT && ((shown ^ line.owner) & ID_OBJECT) != 0u) {
+            under_other += (1.0 - offset.x) * (1.0 - offset.y);
+            nearest_other = min(nearest_other, before);
+        }
+        least = min(least, behind_in_pixels(frame, line_depth, depth + dot(out, offset)));
     }
+    if (under_other > 0.5) {
+        return nearest_other;
+    }
+    if (level < -IN_FRONT) {
+        return 0.0;
+    }
+    least = min(least, level);
     if (least < slack) {
         return select(1.0, 0.0, is_own_near(p_px));
     }
@@ -506,9 +520,9 @@ fn look_up(t: f32) -> Found {
     else if ((line.types & LINE_SILHOUETTE) != 0u) {
         let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
         let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
-        if (threshold > 0.0 && step > threshold) {
+        if (threshold > 0.0 && step > 0.25 * threshold) {
             types |= LINE_SILHOUETTE;
-            strength = max(strength, min(step / threshold - 1.0, 1.0));
+            strength = max(strength, min(step / (0.25 * threshold) - 1.0, 1.0));
         }
         let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
         let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
@@ -567,9 +581,14 @@ fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
 
 fn mark(p_px: vec2f) {
     let size = vec2i(textureDimensions(ids));
+    let place = (p_px - frame.tile_origin) * frame.gbuffer_scale;
     let middle = texel_of(p_px);
+    let reach = 1.2 + 0.4 * frame.gbuffer_scale;
     for (var y = max(middle.y - 1, 0); y <= min(middle.y + 1, size.y - 1); y++) {
         for (var x = max(middle.x - 1, 0); x <= min(middle.x + 1, size.x - 1); x++) {
+            if (any(abs(vec2f(vec2i(x, y)) + 0.5 - place) > vec2f(reach))) {
+                continue;
+            }
             let index = u32(y * size.x + x);
             atomicOr(&marks[index >> 5u], 1u << (index & 31u));
         }

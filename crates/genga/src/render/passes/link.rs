@@ -6,6 +6,7 @@ use crate::render::gpu::{
     timing::Timer,
 };
 use crate::render::{prepare::Prepared, targets::Targets};
+use wgpu::BindingResource as R;
 
 /// Rounds of the ranking, an even number: strokes of up to 2^12 pieces have ends.
 const ROUNDS: usize = 12;
@@ -35,6 +36,7 @@ impl LinkPass {
             (6, B::StorageWrite),
             (7, B::StorageWrite),
             (8, B::StorageWrite),
+            (9, B::Float),
         ];
         let layout = layout(device, "link", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "link", &[&layout]);
@@ -74,6 +76,7 @@ impl LinkPass {
                     (6, strokes.ranks[1 - here].as_entire_binding()),
                     (7, strokes.states.as_entire_binding()),
                     (8, strokes.places.as_entire_binding()),
+                    (9, R::TextureView(targets.full_depth())),
                 ],
             )
         };

@@ -70,6 +70,10 @@ pub(crate) struct Topology {
 /// that its triangles have on the picture.
 const SMOOTH_COSINE: f32 = 0.978;
 
+/// Cosine of the angle that one triangle of a coarse part has at least: a surface about the limit
+/// above does not change from triangle to triangle between what it is.
+const COARSE_COSINE: f32 = 0.906;
+
 /// Cosine under which two normals at one place are different ones.
 const SAME_NORMAL: f32 = 0.9995;
 
@@ -146,8 +150,8 @@ impl Topology {
             let (triangles, _) = primitive.indices.as_chunks::<3>();
             line_ids.extend(triangles.iter().map(|t| face_id(t.map(id))));
         }
-        let is_smooth = smooth_triangles(&whole);
         let pairs = pair_sides(&whole, &welded);
+        let is_smooth = smooth_triangles(&whole, &pairs);
         let smooth_normals = smooth_normals(&whole, &welded);
         let curvatures = curvatures(&whole, &welded, &pairs);
         let mut edges: Vec<LineEdge> = pairs
@@ -173,18 +177,55 @@ impl Topology {
 }
 
 /// Triangles whose corners' normals differ, and not too much from their own.
-fn smooth_triangles(whole: &Whole<'_>) -> Vec<bool> {
-    let of_primitive = |primitive: &Primitive| {
+fn smooth_triangles(whole: &Whole<'_>, pairs: &[(Half, Option<Half>)]) -> Vec<bool> {
+    /// Least cosine between a triangle and its corners' normals; `None` where these are one, or
+    /// where the triangle has no area.
+    fn bend(primitive: &Primitive, triangle: [u32; 3]) -> Option<f32> {
+        let p = triangle.map(|v| primitive.positions[v as usize]);
+        let n = triangle.map(|v| primitive.normals[v as usize]);
+        let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
+        let cosines = n.map(|n| n.dot(face));
+        let differs = n[0] != n[1] || n[1] != n[2];
+        (differs && face != Vec3::ZERO).then(|| cosines[0].min(cosines[1]).min(cosines[2]))
+    }
+    let mut bends = Vec::new();
+    for primitive in whole.primitives {
         let (triangles, _) = primitive.indices.as_chunks::<3>();
-        let is_smooth = |triangle: &[u32; 3]| {
-            let p = triangle.map(|v| primitive.positions[v as usize]);
-            let n = triangle.map(|v| primitive.normals[v as usize]);
-            let face = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-            (n[0] != n[1] || n[1] != n[2]) && n.iter().all(|n| n.dot(face) > SMOOTH_COSINE)
-        };
-        triangles.iter().map(is_smooth).collect::<Vec<_>>()
+        bends.extend(triangles.iter().map(|&triangle| bend(primitive, triangle)));
+    }
+    let may_be_coarse = |triangle: u32| {
+        bends[triangle as usize].is_some_and(|cosine| cosine <= SMOOTH_COSINE)
     };
-    whole.primitives.iter().flat_map(of_primitive).collect()
+    // Parts of triangles side by side that may be coarse, as trees of their first ones.
+    let mut parents: Vec<u32> = (0..bends.len() as u32).collect();
+    fn first_of(parents: &mut [u32], mut triangle: u32) -> u32 {
+        while parents[triangle as usize] != triangle {
+            let above = parents[triangle as usize];
+            parents[triangle as usize] = parents[above as usize];
+            triangle = above;
+        }
+        triangle
+    }
+    for (left, right) in pairs {
+        let Some(right) = right else { continue };
+        let [left, right] = [left / 3, right / 3];
+        if may_be_coarse(left) && may_be_coarse(right) {
+            let firsts = [left, right].map(|triangle| first_of(&mut parents, triangle));
+            parents[firsts[0].max(firsts[1]) as usize] = firsts[0].min(firsts[1]);
+        }
+    }
+    let mut is_coarse = vec![false; bends.len()];
+    for (triangle, bend) in bends.iter().enumerate() {
+        if bend.is_some_and(|cosine| cosine <= COARSE_COSINE) {
+            is_coarse[first_of(&mut parents, triangle as u32) as usize] = true;
+        }
+    }
+    (0..bends.len())
+        .map(|triangle| {
+            let first = first_of(&mut parents, triangle as u32) as usize;
+            bends[triangle].is_some() && !is_coarse[first]
+        })
+        .collect()
 }
 
 /// What makes an edge a line; `None` for the smooth ones inside of a surface.
