@@ -1,11 +1,12 @@
 use std::time::Instant;
 
 use genga::render::{Gpu, GpuOptions, LayerKind, Picture, Prepared, RenderError, Renderer, View};
-use genga::scene::Scene;
+use genga::scene::{Pose, Scene};
 use genga::style::Style;
 
 use crate::console::Console;
 use crate::failure::{Failure, Outcome};
+use crate::source::{Moment, Source};
 use crate::text::one_line;
 
 /// A device with its renderer.
@@ -55,6 +56,28 @@ impl Graphics {
             console.warning(&one_line(&format!("{}: {warning}", scene.name)));
         }
         Ok(prepared)
+    }
+
+    /// Brings a prepared source to a moment: its pose, what moves, waves and beams. Returns the pose.
+    pub(crate) fn set_moment(
+        &self,
+        prepared: &mut Prepared,
+        source: &Source,
+        seconds: Option<f32>,
+        style: &Style,
+    ) -> Outcome<Pose> {
+        let Moment { pose, waves, beams } = source.moment(seconds)?;
+        let past = source.past(seconds, &style.motion)?;
+        let (renderer, name, scene) = (&self.renderer, &source.name, &source.scene);
+        self.check(name, renderer.set_motion(prepared, scene, &pose, &past))?;
+        if !waves.is_empty() {
+            let method = scene.wave_method;
+            self.check(name, renderer.set_waves(prepared, &waves, method, &pose))?;
+        }
+        if !beams.is_empty() {
+            self.check(name, renderer.set_beams(prepared, &beams, &pose))?;
+        }
+        Ok(pose)
     }
 
     /// Draws a picture.

@@ -100,7 +100,8 @@ fn ending(kind: LayerKind) -> &'static str {
         | LayerKind::Base
         | LayerKind::Tone
         | LayerKind::Shadow
-        | LayerKind::Ink => "png",
+        | LayerKind::Ink
+        | LayerKind::Beam => "png",
         LayerKind::Depth
         | LayerKind::Normal
         | LayerKind::Ids
@@ -119,7 +120,8 @@ fn write_layer(path: &Path, width: u32, height: u32, layer: &Layer) -> Outcome {
         | LayerKind::Base
         | LayerKind::Tone
         | LayerKind::Shadow
-        | LayerKind::Ink => &["R", "G", "B", "A"],
+        | LayerKind::Ink
+        | LayerKind::Beam => &["R", "G", "B", "A"],
         LayerKind::HighlightUv => &["drawing.X", "drawing.Y", "drawing.Z"],
         LayerKind::LineMask => &["set.1", "set.2", "set.3", "set.4"],
         LayerKind::LineType => &["line.type"],

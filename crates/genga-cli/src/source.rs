@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use genga::render::{Orbit, ViewCamera};
-use genga::scene::{Pose, Scene, Wave, WaveMotion};
+use genga::scene::{Beam, BeamMotion, Pose, Scene, Wave, WaveMotion};
 use genga::scene_file::{Picture, SceneCamera, SceneFile};
-use genga::style::Style;
+use genga::style::{Motion, Style};
 use glam::Vec3;
 
 use crate::args::OrbitArgs;
@@ -27,6 +27,13 @@ pub(crate) struct Source {
     pub(crate) picture: Picture,
     camera: Option<SceneCamera>,
     animation: Animation,
+}
+
+/// A source at one moment.
+pub(crate) struct Moment {
+    pub(crate) pose: Pose,
+    pub(crate) waves: Vec<Wave>,
+    pub(crate) beams: Vec<Beam>,
 }
 
 /// How a source moves.
@@ -112,10 +119,12 @@ fn load_scene(
         console.warning(&one_line(warning));
     }
     let stands = file.models.iter().all(|model| model.clip.is_none())
-        && file.waves.iter().all(|wave| wave.motion == WaveMotion::default());
+        && file.waves.iter().all(|wave| wave.motion == WaveMotion::default())
+        && file.beams.iter().all(|beam| beam.motion == BeamMotion::default());
     if moves && stands {
         console.warning(&format!(
-            "{}: none of its models has a 'clip' and none of its waves a 'motion', so it stands still",
+            "{}: none of its models has a 'clip' and none of its waves and beams a 'motion', so it \
+             stands still",
             path.display()
         ));
     }
@@ -149,18 +158,29 @@ impl Source {
     /// Where everything stands, `seconds` into the clip if that is given. For a scene file the
     /// seconds are added to each model's own.
     pub(crate) fn pose(&self, seconds: Option<f32>) -> Outcome<Pose> {
-        Ok(self.moment(seconds)?.0)
+        Ok(self.moment(seconds)?.pose)
     }
 
-    /// The pose, and the waves as they are then.
-    pub(crate) fn moment(&self, seconds: Option<f32>) -> Outcome<(Pose, Vec<Wave>)> {
+    /// The poses before a moment that speed lines and smears need; none in other styles.
+    pub(crate) fn past(&self, seconds: Option<f32>, motion: &Motion) -> Outcome<Vec<Pose>> {
+        let moments = motion.moments();
+        moments.iter().map(|before| self.pose(Some(seconds.unwrap_or(0.0) - before))).collect()
+    }
+
+    /// Everything that moves.
+    pub(crate) fn moment(&self, seconds: Option<f32>) -> Outcome<Moment> {
+        let still = |pose| Moment { pose, waves: Vec::new(), beams: Vec::new() };
         match &self.animation {
             Animation::Clip(Some(clip)) => {
-                Ok((Pose::at(&self.scene, *clip, seconds.unwrap_or(0.0)), Vec::new()))
+                Ok(still(Pose::at(&self.scene, *clip, seconds.unwrap_or(0.0))))
             }
-            Animation::Clip(None) => Ok((Pose::rest(&self.scene), Vec::new())),
+            Animation::Clip(None) => Ok(still(Pose::rest(&self.scene))),
             Animation::File { file, models, pose } => match seconds {
-                None => Ok((pose.clone(), self.scene.waves.clone())),
+                None => Ok(Moment {
+                    pose: pose.clone(),
+                    waves: self.scene.waves.clone(),
+                    beams: self.scene.beams.clone(),
+                }),
                 Some(seconds) => {
                     let mut file = file.clone();
                     for model in &mut file.models {
@@ -169,13 +189,17 @@ impl Source {
                     for wave in &mut file.waves {
                         wave.time += seconds;
                     }
+                    for beam in &mut file.beams {
+                        beam.time += seconds;
+                    }
                     let assembled = file.assemble(|path| {
                         match models.iter().find(|(known, _)| known == path) {
                             Some((_, scene)) => Ok(scene.clone()),
                             None => model::load(path).map(|model| model.scene),
                         }
                     })?;
-                    Ok((assembled.pose, assembled.scene.waves))
+                    let Scene { waves, beams, .. } = assembled.scene;
+                    Ok(Moment { pose: assembled.pose, waves, beams })
                 }
             },
         }
@@ -185,7 +209,7 @@ impl Source {
     pub(crate) fn drawn(&self, points: Vec<Vec3>) -> Outcome<Vec<Vec3>> {
         if points.is_empty() {
             return Err(Failure::Message(format!(
-                "{}: there is nothing to draw: it has neither triangles nor waves",
+                "{}: there is nothing to draw: it has neither triangles nor waves nor beams",
                 self.name
             )));
         }

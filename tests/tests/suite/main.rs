@@ -1,6 +1,7 @@
 //! Everything that needs a shader compiler, a device or pictures, in one program, so that the
 //! pipelines compile once.
 
+mod beams;
 mod color;
 mod contours;
 mod edges;
@@ -10,6 +11,7 @@ mod hatching;
 mod highlight_surfaces;
 mod highlights;
 mod lines;
+mod motion;
 mod outlines;
 mod pipelines;
 mod ramp;

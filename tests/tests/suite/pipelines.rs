@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use genga::render::{LayerKind, Renderer, View};
 use genga::scene::{
-    AlphaMode, Highlight, Material, PanoramaPlacement, Placement, Proxy, ProxyMesh, Scene, Shading,
-    Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
+    AlphaMode, Beam, BeamOrder, Highlight, Material, PanoramaPlacement, Placement, Pose, Proxy,
+    ProxyMesh, Scene, Shading, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
 };
 use genga::style::{Globs, HatchMapping};
 use genga::{shapes, style::Style};
@@ -63,6 +63,9 @@ fn scene_of_all_kinds() -> Scene {
     ]
     .map(|(order, blend)| Wave { order, blend, attenuation: 2.0, ..Wave::default() })
     .to_vec();
+    scene.beams = [BeamOrder::Under, BeamOrder::LinesThrough, BeamOrder::Over, BeamOrder::Hide]
+        .map(|order| Beam { order, ..Beam::default() })
+        .to_vec();
     scene
 }
 
@@ -100,6 +103,7 @@ const METHODS: [&str; 6] = ["none", "contour", "reference", "hull", "rim", "imag
 fn styles() -> Vec<Style> {
     let mut styles: Vec<Style> =
         METHODS.iter().map(|m| style(&format!("[lines]\nmethod = \"{m}\""))).collect();
+    styles.push(style("[motion.speed_lines]\n[motion.smear]"));
     styles.push(style("[paint]\nblend_space = \"linear\""));
     let mut pictured = style("[paint.hatch]\npattern = \"image\"");
     let picture = genga_tests::scenes::image(2, 2, |x, _| [128 * x as u8; 4]);
@@ -138,7 +142,11 @@ fn every_pipeline_is_valid_with_default_limits() {
         wgpu::TextureFormat::Rgba16Float,
     ];
     for style in styles() {
-        let prepared = renderer.prepare(&scene, &style).expect("the scene is valid");
+        let mut prepared = renderer.prepare(&scene, &style).expect("the scene is valid");
+        let pose = Pose::rest(&scene);
+        let mut past = pose.clone();
+        past.world_from_node.iter_mut().for_each(|node| node.translation.x -= 1.0);
+        renderer.set_motion(&mut prepared, &scene, &pose, &[past]).expect("the poses fit");
         for view in [perspective_view([48, 32], 40.0, 8.0), ortho_view([48, 32], 4.0)] {
             for supersample in [1, 2] {
                 let view = View { supersample, ..view };

@@ -1,5 +1,6 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
+mod beams;
 mod hatching;
 mod highlights;
 mod light;
@@ -40,6 +41,8 @@ pub(crate) enum Part {
     Hatching,
     /// The sheets of lights, ramps, comic highlights and print
     Light,
+    /// The sheets and showpieces of beams and motion
+    Beams,
 }
 
 /// The small pictures of README and gallery, in `assets/gallery`, which are committed: the named
@@ -66,6 +69,9 @@ pub(crate) fn gallery(root: &Path, parts: &[Part]) -> Result<()> {
     }
     if wanted(Part::Light) {
         light::draw(root, &genga, &folder)?;
+    }
+    if wanted(Part::Beams) {
+        beams::draw(root, &genga, &folder)?;
     }
     println!("\nthe pictures are in {}", folder.display());
     Ok(())

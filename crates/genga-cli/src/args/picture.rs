@@ -182,6 +182,8 @@ pub(crate) enum LayerName {
     Shadow,
     /// Hatching alone (PNG)
     Ink,
+    /// Beams alone (PNG)
+    Beam,
 }
 
 impl LayerName {
@@ -202,6 +204,7 @@ impl LayerName {
             Self::Tone => LayerKind::Tone,
             Self::Shadow => LayerKind::Shadow,
             Self::Ink => LayerKind::Ink,
+            Self::Beam => LayerKind::Beam,
         }
     }
 }

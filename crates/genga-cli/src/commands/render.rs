@@ -128,14 +128,8 @@ impl Shoot<'_> {
             let number = self.index * count + i;
             let target = self.names.target(&source.name, &style.name, frame, number);
             saver.check(&target, &layers, &inputs)?;
-            let (pose, waves) = source.moment(self.moments.seconds(frame))?;
-            let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
-            graphics.check(&source.name, posed)?;
-            if !waves.is_empty() {
-                let method = source.scene.wave_method;
-                let set = graphics.renderer.set_waves(&mut prepared, &waves, method, &pose);
-                graphics.check(&source.name, set)?;
-            }
+            let seconds = self.moments.seconds(frame);
+            let pose = graphics.set_moment(&mut prepared, source, seconds, &style.style)?;
             let view = view::view(&args.picture, source, self.camera(&pose, &points)?, frame);
             if args.dump_keys {
                 keys::print(&source.name, frame, &prepared, &view)?;

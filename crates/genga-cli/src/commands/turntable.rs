@@ -30,8 +30,7 @@ pub(crate) fn run(args: &TurntableArgs, console: &Console) -> Outcome {
 
     let graphics = Graphics::open(picture.adapter.as_deref(), false, console)?;
     let mut prepared = graphics.prepare(&source.scene, &style.style, console)?;
-    let posed = graphics.renderer.set_pose(&mut prepared, &source.scene, &pose);
-    graphics.check(&source.name, posed)?;
+    graphics.set_moment(&mut prepared, &source, picture.time, &style.style)?;
     let layers = picture.layer_kinds();
     let inputs = [&source.files[..], style.file.as_slice()].concat();
     let mut saver = Saver::default();

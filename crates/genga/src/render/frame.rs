@@ -58,6 +58,7 @@ pub(crate) struct Output {
     pub(crate) lines: bool,
     /// The waves.
     pub(crate) glow: bool,
+    pub(crate) beams: bool,
     /// Whether the glow is dithered for 8 encoded bits a channel.
     pub(crate) dithered: bool,
     /// Straight alpha instead of premultiplied.
@@ -96,6 +97,11 @@ pub(crate) fn line_method(style: &Style) -> u32 {
 pub(crate) fn has_line_colors(style: &Style) -> bool {
     style.lines.method == LineMethod::Contour
         && style.lines.sets.iter().any(|set| set.color_by != LineColorBy::Fixed)
+}
+
+/// Whether beams must know which strokes are nearer than they.
+pub(crate) fn needs_line_depths(prepared: &Prepared) -> bool {
+    prepared.style.lines.method == LineMethod::Contour && prepared.beams.any_over()
 }
 
 /// A line set for the GPU; `scale` is that of `line_scale`.
@@ -201,7 +207,9 @@ pub(crate) fn frame_values(
                 gpu::FRAME_LINE_COLORS,
             )
             | flag(style.lines.sets.iter().any(bent), gpu::FRAME_SCREEN_CURVATURE)
-            | flag(scale.is_small(), gpu::FRAME_SMALL_DETECTION),
+            | flag(scale.is_small(), gpu::FRAME_SMALL_DETECTION)
+            | flag(needs_line_depths(prepared), gpu::FRAME_LINE_DEPTHS)
+            | flag(output.beams, gpu::FRAME_SHOW_BEAMS),
         line_set_count: style.lines.sets.len().min(4) as u32,
         line_method: line_method(style),
         palette_count: style.paint.palette.len().min(16) as u32,

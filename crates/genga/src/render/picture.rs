@@ -61,11 +61,14 @@ pub enum LayerKind {
     /// Hatching alone, in front of what hides it: RGBA, sRGB-encoded, straight alpha. It lies over
     /// [`Self::Tone`], which it multiplies, and under highlights.
     Ink,
+    /// Beams alone, where nothing hides them: RGBA, sRGB-encoded, straight alpha. They go on top of
+    /// [`Self::Color`]; lines that go through them are not in it.
+    Beam,
 }
 
 impl LayerKind {
     /// All layers.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Color,
         Self::Depth,
         Self::Normal,
@@ -80,6 +83,7 @@ impl LayerKind {
         Self::Tone,
         Self::Shadow,
         Self::Ink,
+        Self::Beam,
     ];
 
     /// Name in file names and options.
@@ -100,6 +104,7 @@ impl LayerKind {
             Self::Tone => "tone",
             Self::Shadow => "shadow",
             Self::Ink => "ink",
+            Self::Beam => "beam",
         }
     }
 }
@@ -251,6 +256,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            beams: true,
             dithered: true,
             straight: true,
         };
@@ -288,7 +294,7 @@ impl Renderer {
             };
             for layer in &picture.layers {
                 let mut encoder = self.encoder("layer");
-                let output = Output { background: false, glow: false, ..whole };
+                let output = Output { background: false, glow: false, beams: false, ..whole };
                 reads.push(Some(match layer.kind {
                     LayerKind::Color
                     | LayerKind::Lines
@@ -296,9 +302,11 @@ impl Renderer {
                     | LayerKind::Base
                     | LayerKind::Tone
                     | LayerKind::Shadow
-                    | LayerKind::Ink => {
-                        let paint = layer.kind != LayerKind::Lines;
-                        let output = Output { paint, lines: !paint, ..output };
+                    | LayerKind::Ink
+                    | LayerKind::Beam => {
+                        let lines = layer.kind == LayerKind::Lines;
+                        let beams = layer.kind == LayerKind::Beam;
+                        let output = Output { paint: !lines && !beams, lines, beams, ..output };
                         self.write_frame(prepared, view, &projected, tile, output);
                         if let Some(wanted) = paint_output(layer.kind) {
                             repaint(&mut encoder, wanted);
@@ -344,7 +352,7 @@ impl Renderer {
 /// What the paint target must hold for a layer that is composited from it.
 fn paint_output(kind: LayerKind) -> Option<PaintOutput> {
     match kind {
-        LayerKind::Color => Some(PaintOutput::Plain),
+        LayerKind::Color | LayerKind::Beam => Some(PaintOutput::Plain),
         LayerKind::Highlight => Some(PaintOutput::Highlights),
         LayerKind::Base => Some(PaintOutput::Base),
         LayerKind::Tone => Some(PaintOutput::Tone),
@@ -486,7 +494,8 @@ fn empty_layer(kind: LayerKind, pixels: usize) -> Layer {
         | LayerKind::Base
         | LayerKind::Tone
         | LayerKind::Shadow
-        | LayerKind::Ink => LayerData::Rgba8(vec![0; 4 * pixels]),
+        | LayerKind::Ink
+        | LayerKind::Beam => LayerData::Rgba8(vec![0; 4 * pixels]),
         LayerKind::Depth | LayerKind::Energy => {
             LayerData::F32 { channels: 1, values: vec![0.0; pixels] }
         }

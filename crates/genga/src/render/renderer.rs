@@ -4,11 +4,15 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::{
     RenderError,
-    frame::{Aim, Output, Tile, frame_values, gbuffer_scale, has_line_colors, viewport},
+    frame::{
+        Aim, Output, Tile, frame_values, gbuffer_scale, has_line_colors, needs_line_depths,
+        viewport,
+    },
     generated::Light,
     gpu::{scope, timing::Timer},
     layouts::Layouts,
     passes::{
+        beams::BeamPass,
         candidates::CandidatePass,
         composite::CompositePass,
         deform::DeformPass,
@@ -21,6 +25,7 @@ use super::{
         reference::ReferencePass,
         seams::SeamPass,
         shadow::ShadowPass,
+        speed_lines::SpeedLinePass,
         strokes::StrokePass,
         walk::{WalkPass, lines_group},
         waves::WavePass,
@@ -34,7 +39,7 @@ use super::{
     targets::{ListGrid, TargetSize, Targets},
     view::{Projected, View},
 };
-use crate::scene::{Pose, Scene, Wave, WaveMethod};
+use crate::scene::{Beam, Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
 
 /// Draws prepared scenes. Make one per device; it holds pipelines and targets, never a scene.
@@ -60,6 +65,10 @@ pub struct Renderer {
     shadow: OnceLock<ShadowPass>,
     /// Made when the first wave is drawn.
     waves: OnceLock<WavePass>,
+    /// Made when the first beam is drawn.
+    beams: OnceLock<BeamPass>,
+    /// Made when something is fast.
+    speed_lines: OnceLock<SpeedLinePass>,
     /// The targets of the last size drawn.
     targets: Mutex<Option<Arc<Targets>>>,
     /// Held while a picture is recorded and submitted: pictures share targets and uniforms.
@@ -128,6 +137,8 @@ impl Renderer {
                 plain: PlainPass::new(device, &layouts),
                 shadow: OnceLock::new(),
                 waves: OnceLock::new(),
+                beams: OnceLock::new(),
+                speed_lines: OnceLock::new(),
                 layouts,
                 targets: Mutex::new(None),
                 turn: Mutex::new(()),
@@ -155,15 +166,32 @@ impl Renderer {
         scene: &Scene,
         pose: &Pose,
     ) -> Result<(), RenderError> {
-        if !prepared.fits(scene, pose) {
+        self.set_motion(prepared, scene, pose, &[])
+    }
+
+    /// As [`Self::set_pose`], with the poses before it, for speed lines and smears: at even steps,
+    /// the last one at the shutter's opening (see [`crate::style::Motion::moments`]). Without any
+    /// nothing moves.
+    ///
+    /// # Errors
+    /// A pose of another scene, or what the driver refuses.
+    pub fn set_motion(
+        &self,
+        prepared: &mut Prepared,
+        scene: &Scene,
+        pose: &Pose,
+        past: &[Pose],
+    ) -> Result<(), RenderError> {
+        if !std::iter::once(pose).chain(past).all(|pose| prepared.fits(scene, pose)) {
             let reason = "the pose or scene is not the one that was prepared".to_owned();
             return Err(RenderError::View { reason });
         }
         crate::scene::validate_waves(&scene.waves, scene.wave_method, scene.nodes.len())?;
+        crate::scene::validate_beams(&scene.beams, scene.nodes.len())?;
         scope::checked(&self.device, || {
-            prepared.write_pose(&self.device, &self.queue, scene, pose);
+            prepared.write_pose(&self.device, &self.queue, scene, (pose, past));
             let mut encoder = self.encoder("deform");
-            self.deform.run(&mut encoder, prepared, &mut Timer::off());
+            self.deform.run(&self.device, &mut encoder, prepared, &mut Timer::off());
             self.queue.submit([encoder.finish()]);
             Ok(())
         })
@@ -184,6 +212,25 @@ impl Renderer {
         crate::scene::validate_waves(waves, method, pose.world_from_node.len())?;
         scope::checked(&self.device, || {
             prepared.waves.write(&self.device, &self.queue, waves, method, pose);
+            Ok(())
+        })
+    }
+
+    /// Takes over beams, which may all have changed, and places them at a pose: as
+    /// [`Self::set_pose`] without the geometry. Which surfaces are marked stays as it was prepared.
+    ///
+    /// # Errors
+    /// A beam that cannot be drawn, or what the driver refuses.
+    pub fn set_beams(
+        &self,
+        prepared: &mut Prepared,
+        beams: &[Beam],
+        pose: &Pose,
+    ) -> Result<(), RenderError> {
+        crate::scene::validate_beams(beams, pose.world_from_node.len())?;
+        scope::checked(&self.device, || {
+            let blend = prepared.style.paint.blend_space;
+            prepared.beams.write(&self.device, &self.queue, beams, pose, blend);
             Ok(())
         })
     }
@@ -210,6 +257,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            beams: true,
             dithered: is_8_bit(format) && !format.is_srgb(),
             straight: false,
         };
@@ -252,12 +300,20 @@ impl Renderer {
         if let Some(depth) = &targets.picture_depth {
             self.depth.run(device, encoder, &prepared.frame, &targets, depth, timer);
         }
+        if targets.size.beams {
+            let pass = self.beams.get_or_init(|| BeamPass::new(device));
+            pass.run(device, encoder, prepared, (&targets, &targets.beams), &aim, timer);
+        }
         match prepared.style.lines.method {
             LineMethod::Contour => self.draw_contours(encoder, prepared, &targets, timer),
             LineMethod::Reference => {
                 self.reference.run(device, encoder, &self.layouts, prepared, &targets, timer);
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
+        }
+        if prepared.speed_lines.count > 0 {
+            let pass = self.speed_lines.get_or_init(|| SpeedLinePass::new(device));
+            pass.run(device, encoder, prepared, &targets, timer);
         }
         self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
         targets
@@ -286,8 +342,9 @@ impl Renderer {
             pixels: tile.size,
             paint_scale: view.supersample,
             gbuffer_scale: gbuffer_scale(prepared, view),
-            line_colors: has_line_colors(&prepared.style),
+            line_colors: has_line_colors(&prepared.style) || needs_line_depths(prepared),
             glow_layers: prepared.waves.layers.len() as u32,
+            beams: !prepared.beams.items.is_empty(),
         })
     }
 
@@ -326,6 +383,7 @@ impl Renderer {
         prepared.highlights.write(&self.queue, prepared, view, &lights);
         prepared.shadings.write(&self.queue, &lights);
         let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
+        lights.extend(prepared.beams.lights());
         // Loops over them end at the first one without weight.
         lights.resize(MAX_LIGHTS, bytemuck::Zeroable::zeroed());
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));
@@ -408,6 +466,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            beams: true,
             dithered: true,
             straight: false,
         };
@@ -415,7 +474,7 @@ impl Renderer {
         let mut encoder = self.encoder("timed frame");
         scope::checked(device, || {
             if workload != Workload::Waves {
-                self.deform.run(&mut encoder, prepared, timer);
+                self.deform.run(device, &mut encoder, prepared, timer);
             }
             match workload {
                 Workload::Styled => {

@@ -23,6 +23,9 @@ pub(crate) const LINE_COLOR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R
 /// Glow of the waves, a layer for each order and blend space. Written by `waves`, read by
 /// `composite`.
 pub(crate) const GLOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Colours of beams, and distances of those over lines, both as `paint`. Written by `beams`, read by
+/// `composite`.
+const BEAM_FORMAT: wgpu::TextureFormat = PAINT_FORMAT;
 /// Energy of all waves. Written by `waves`.
 pub(crate) const ENERGY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R32Float;
 /// The benchmark's baseline. Written by `plain`.
@@ -42,10 +45,12 @@ pub(crate) struct TargetSize {
     pub(crate) paint_scale: u32,
     /// G-buffer texels per pixel along each axis.
     pub(crate) gbuffer_scale: Scale,
-    /// Whether line sets take their colour from surfaces.
+    /// Whether line sets take their colour from surfaces, or the depth of strokes is needed.
     pub(crate) line_colors: bool,
     /// Glow layers; without any there are no targets for waves.
     pub(crate) glow_layers: u32,
+    /// Whether there are beams.
+    pub(crate) beams: bool,
 }
 
 /// Texels per pixel along each axis, as a fraction.
@@ -120,6 +125,39 @@ pub(crate) struct Targets {
     /// One texel without waves.
     pub(crate) glow: Target,
     pub(crate) waves: Option<WaveTargets>,
+    pub(crate) beams: BeamTargets,
+}
+
+/// What beams are drawn into; one texel without any.
+pub(crate) struct BeamTargets {
+    /// Only where the paint is multisampled.
+    pub(crate) samples: Option<Target>,
+    pub(crate) place_samples: Option<Target>,
+    /// Under the paint, under lines, over lines.
+    pub(crate) layers: [Target; 3],
+    /// See `OverLines` in `shaders/passes/beams.wesl`.
+    pub(crate) places: Target,
+}
+
+impl BeamTargets {
+    fn new(device: &wgpu::Device, size: TargetSize) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let paint = if size.beams { size.pixels.map(|n| n * size.paint_scale) } else { [1, 1] };
+        let samples = if size.beams { paint_samples(size.paint_scale) } else { 1 };
+        let drawn = Usage::RENDER_ATTACHMENT;
+        let kept =
+            |label| target(device, label, paint, 1, BEAM_FORMAT, drawn | Usage::TEXTURE_BINDING);
+        let sampled = |label| {
+            (samples > 1).then(|| target(device, label, paint, samples, BEAM_FORMAT, drawn))
+        };
+        Self {
+            samples: sampled("beam samples"),
+            place_samples: sampled("beam place samples"),
+            // Not layers of one texture: Mesa's software driver resolves samples into the wrong one.
+            layers: [(); 3].map(|()| kept("beams")),
+            places: kept("beam places"),
+        }
+    }
 }
 
 /// What the waves alone need of a tile.
@@ -291,7 +329,7 @@ impl Targets {
             line_colors: size.line_colors.then(|| {
                 [
                     target(device, "line colours", size.pixels, 1, LINE_COLOR_FORMAT, read),
-                    target(device, "line depth", size.pixels, 1, DEPTH_FORMAT, drawn),
+                    target(device, "line depth", size.pixels, 1, DEPTH_FORMAT, read),
                 ]
             }),
             no_colors: target(device, "no line colours", [1, 1], 1, LINE_COLOR_FORMAT, read),
@@ -300,6 +338,7 @@ impl Targets {
             seam_texels: stored("seam texels", 4 * (texels / 4 + 64)),
             glow: glow_target(device, size),
             waves: (size.glow_layers > 0).then(|| WaveTargets::new(device, size.pixels)),
+            beams: BeamTargets::new(device, size),
         }
     }
 }

@@ -57,7 +57,7 @@ impl Scene {
     }
 
     /// Points at a pose that stick out farthest in 64 directions: enough to fit a camera closely,
-    /// however large the scene is. In a scene of waves alone, places round these. Empty if nothing
+    /// however large the scene is. In a scene of waves and beams alone, places round these. Empty if nothing
     /// is drawn.
     ///
     /// It visits every vertex on the CPU.
@@ -81,7 +81,9 @@ impl Scene {
             }
         });
         if farthest[0].0 == f32::NEG_INFINITY {
-            return self.wave_places(pose);
+            let beams = self.beams.iter().filter(|beam| beam.check(self.nodes.len()).is_ok());
+            let beams = beams.flat_map(|beam| beam.mesh(pose).positions);
+            return self.wave_places(pose).into_iter().chain(beams).collect();
         }
         farthest.iter().filter(|(d, _)| *d > f32::NEG_INFINITY).map(|(_, p)| (*p).into()).collect()
     }

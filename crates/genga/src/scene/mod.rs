@@ -4,6 +4,8 @@
 //! everything else by index into the vectors of [`Scene`]; [`Scene::validate`] checks that all
 //! of them are in range, which the renderer relies on.
 
+mod beam;
+mod beam_mesh;
 mod bounds;
 mod camera;
 mod clip;
@@ -15,6 +17,7 @@ mod node;
 mod pick;
 mod pose;
 mod shading;
+mod surface_point;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -24,6 +27,10 @@ pub(crate) mod wave_curve;
 #[cfg(test)]
 mod wave_tests;
 
+pub use beam::{
+    Beam, BeamLight, BeamMotion, BeamOrder, BeamShape, BeamTone, MAX_BEAM_TONES, MAX_BEAMS,
+};
+pub(crate) use beam_mesh::BeamMesh;
 pub use bounds::Aabb;
 pub use camera::{Camera, Projection};
 pub use clip::{Channel, ChannelTarget, Clip, Interpolation};
@@ -41,8 +48,9 @@ pub use node::{Node, Skin, Transform};
 pub use pick::Hit;
 pub use pose::Pose;
 pub use shading::{FaceShadow, MAX_SHADINGS, Shading};
+pub(crate) use surface_point::{NodePose, SurfacePoint};
 pub use validate::SceneError;
-pub(crate) use validate::validate_waves;
+pub(crate) use validate::{validate_beams, validate_waves};
 pub use wave::{
     MAX_WAVES, Wave, WaveAnchor, WaveBlend, WaveMethod, WaveMotion, WaveNoise, WaveOrder,
     WavePlacement, WaveShape, WaveTone,
@@ -84,6 +92,8 @@ pub struct Scene {
     pub waves: Vec<Wave>,
     /// How they are integrated.
     pub wave_method: WaveMethod,
+    /// Beams, at most [`MAX_BEAMS`]; they may change from frame to frame.
+    pub beams: Vec<Beam>,
 }
 
 impl Scene {

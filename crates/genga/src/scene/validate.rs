@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{HighlightError, Interpolation, MAX_WAVES, Scene, Wave, WaveMethod};
+use super::{Beam, HighlightError, Interpolation, MAX_BEAMS, MAX_WAVES, Scene, Wave, WaveMethod};
 
 /// Why a scene cannot be drawn.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -116,6 +116,24 @@ pub enum SceneError {
         /// How many there may be.
         most: usize,
     },
+    /// A beam cannot be drawn.
+    #[error("beam {index} '{name}' {reason}")]
+    Beam {
+        /// The beam.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The rest of the sentence.
+        reason: String,
+    },
+    /// More beams than can be drawn.
+    #[error("there are {count} beams: at most {most} can be drawn, so join or remove some")]
+    TooManyBeams {
+        /// How many there are.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The numbers of the waves' reference method.
     #[error(
         "the waves' reference method has {points} points and the thinning {thinning}: they must be 2 to 4000 and 1 to 64"
@@ -168,6 +186,22 @@ pub(crate) fn validate_waves(
     Ok(())
 }
 
+/// Checks beams that may refer to `nodes` nodes.
+///
+/// # Errors
+/// The first one that cannot be drawn.
+pub(crate) fn validate_beams(beams: &[Beam], nodes: usize) -> Result<(), SceneError> {
+    let (count, most) = (beams.len(), MAX_BEAMS);
+    if count > most {
+        return Err(SceneError::TooManyBeams { count, most });
+    }
+    for (index, beam) in beams.iter().enumerate() {
+        let wrong = |reason| SceneError::Beam { index, name: beam.name.clone(), reason };
+        beam.check(nodes).map_err(wrong)?;
+    }
+    Ok(())
+}
+
 impl Scene {
     /// Checks that every index is in range, every attribute complete and the nodes a forest.
     ///
@@ -175,6 +209,7 @@ impl Scene {
     /// The first thing that is wrong.
     pub fn validate(&self) -> Result<(), SceneError> {
         validate_waves(&self.waves, self.wave_method, self.nodes.len())?;
+        validate_beams(&self.beams, self.nodes.len())?;
         for (i, node) in self.nodes.iter().enumerate() {
             let what = || format!("node {i} '{}'", node.name);
             check(&what, "mesh", node.mesh, self.meshes.len())?;

@@ -1,6 +1,7 @@
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
+use super::beam_place::Moving;
 use super::highlight_place::Instance;
 use super::merge::Merged;
 use super::{
@@ -58,6 +59,7 @@ impl SceneFile {
         let mut merged = Merged::new(self.name());
         let offsets: Vec<_> = files.iter_mut().map(|(_, scene)| merged.add_shared(scene)).collect();
         let mut placed = Vec::new();
+        let mut moving = Vec::new();
         for (model, file, pose, hidden) in instances {
             let (Some((_, scene)), Some(offsets)) = (files.get(file), offsets.get(file)) else {
                 continue;
@@ -66,6 +68,7 @@ impl SceneFile {
             let meshes = scene.nodes.iter().map(|node| node.mesh.map(|m| m + offsets.meshes));
             let (meshes, known_as) = (meshes.collect(), name.clone());
             let top = merged.add_instance(scene, *offsets, pose, &hidden, name, transform);
+            moving.push(Moving { model, scene, top });
             placed.push(Instance { name: known_as, top, meshes });
         }
         for entry in &self.lights {
@@ -84,6 +87,10 @@ impl SceneFile {
         for entry in &self.waves {
             let wave = self.placed_wave(entry, &merged.scene)?;
             merged.scene.waves.push(wave);
+        }
+        for entry in &self.beams {
+            let beam = self.placed_beam(entry, &merged.scene, &moving)?;
+            merged.scene.beams.push(beam);
         }
         merged.scene.wave_method = self.wave_reference.map_or(WaveMethod::Exact, WaveMethod::from);
         let camera = match &self.camera {
@@ -111,6 +118,16 @@ impl SceneFile {
     }
 
     fn pose(&self, model: &ModelEntry, scene: &Scene) -> Result<Pose, FileError> {
+        self.pose_before(model, scene, 0.0)
+    }
+
+    /// A model's pose some seconds before its moment.
+    pub(super) fn pose_before(
+        &self,
+        model: &ModelEntry,
+        scene: &Scene,
+        seconds: f32,
+    ) -> Result<Pose, FileError> {
         let Some(clip) = &model.clip else { return Ok(Pose::rest(scene)) };
         let index = match &**clip {
             ClipEntry::Name(name) => scene.find_clip(name),
@@ -118,7 +135,7 @@ impl SceneFile {
                 usize::try_from(*index).ok().filter(|index| *index < scene.clips.len())
             }
         };
-        index.map(|index| Pose::at(scene, index, model.time)).ok_or_else(|| {
+        index.map(|index| Pose::at(scene, index, model.time - seconds)).ok_or_else(|| {
             let names: Vec<&str> = scene.clips.iter().map(|clip| clip.name.as_str()).collect();
             let message = match &**clip {
                 ClipEntry::Name(name) => not_there("clip", name, &names),
@@ -149,11 +166,16 @@ impl SceneFile {
         Ok(entry.motion.at(&wave, entry.time))
     }
 
-    fn node(&self, at: &Located<NodeNames>, name: &str, scene: &Scene) -> Result<usize, FileError> {
+    pub(super) fn node(
+        &self,
+        at: &Located<NodeNames>,
+        name: &str,
+        scene: &Scene,
+    ) -> Result<usize, FileError> {
         self.node_named(at, name, scene)
     }
 
-    fn node_named<T>(
+    pub(super) fn node_named<T>(
         &self,
         at: &Located<T>,
         name: &str,

@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer};
 use thiserror::Error;
 
 use super::{
-    CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, ShadingEntry, WaveEntry,
-    WaveReference, camera, highlight, light, wave,
+    BeamEntry, CameraEntry, HighlightEntry, LightEntry, Located, ModelEntry, ShadingEntry,
+    WaveEntry, WaveReference, beam, camera, highlight, light, wave,
 };
 use crate::FileError;
 use crate::style::{Style, StyleError, is_style_path};
@@ -49,6 +49,8 @@ pub struct SceneFile {
     pub waves: Vec<WaveEntry>,
     /// How they are integrated, if not exactly.
     pub wave_reference: Option<WaveReference>,
+    /// Beams.
+    pub beams: Vec<BeamEntry>,
     /// The picture to make.
     pub picture: Picture,
     /// Where relative paths start.
@@ -110,6 +112,10 @@ struct Written {
     /// Abe's own method for the waves instead of the exact one, for comparison.
     #[serde(default)]
     wave_reference: Option<WaveReference>,
+    /// Beams: bodies of light.
+    #[serde(default, deserialize_with = "beams")]
+    #[schemars(with = "Vec<beam::Written>", length(max = 256))]
+    beam: Vec<BeamEntry>,
     /// The picture to make.
     #[serde(default)]
     picture: Picture,
@@ -125,6 +131,10 @@ fn lights<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<LightEntry>,
 }
 
 fn waves<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<WaveEntry>, D::Error> {
+    list_with(deserializer, |_, _| Ok(()))
+}
+
+fn beams<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<BeamEntry>, D::Error> {
     list_with(deserializer, |_, _| Ok(()))
 }
 
@@ -169,6 +179,7 @@ impl SceneFile {
             shadings: written.shading,
             waves: written.wave,
             wave_reference: written.wave_reference,
+            beams: written.beam,
             picture: written.picture,
             directory,
             path: path.map(Path::to_owned),

@@ -24,6 +24,10 @@
 //! ```
 
 mod assemble;
+mod beam;
+mod beam_place;
+#[cfg(test)]
+mod beam_tests;
 mod camera;
 mod file;
 mod highlight;
@@ -44,6 +48,7 @@ mod wave_tests;
 
 pub use crate::toml_file::Located;
 pub use assemble::Assembled;
+pub use beam::BeamEntry;
 pub use camera::{CameraEntry, OrbitCamera, PlacedCamera, SceneCamera};
 pub use file::{Picture, SceneFile, SceneFileError, json_schema};
 pub use highlight::{

@@ -10,7 +10,7 @@ use toml::Spanned;
 use toml::de::DeTable;
 
 use super::presets::preset_text;
-use super::{Background, Lines, Override, Paint, Style, StyleLight, merge};
+use super::{Background, Lines, Motion, Override, Paint, Style, StyleLight, merge};
 use crate::FileError;
 use crate::toml_file::{Document, nearest, read_text, schema_of, show_path};
 
@@ -66,6 +66,9 @@ struct StyleFile {
     /// How lines are found and drawn.
     #[serde(default)]
     lines: Lines,
+    /// How motion is drawn.
+    #[serde(default)]
+    motion: Motion,
     /// What differs for some objects, materials or colours. Later ones win, property by
     /// property.
     #[serde(default)]
@@ -83,6 +86,7 @@ impl From<StyleFile> for Style {
             light: file.light,
             paint: file.paint,
             lines: file.lines,
+            motion: file.motion,
             overrides: file.r#override,
         }
     }

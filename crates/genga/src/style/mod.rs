@@ -26,6 +26,7 @@ mod globs;
 mod hatch;
 mod lines;
 mod merge;
+mod motion;
 mod overrides;
 mod paint;
 pub(crate) mod picture;
@@ -46,6 +47,7 @@ pub use lines::{
     Detect, DetectScale, Hull, LineColorBy, LineMethod, LineParts, LineSet, LineType, Lines, Rim,
     Strokes,
 };
+pub use motion::{Motion, Shutter, Smear, SpeedLines};
 pub use overrides::{
     BaseColorRange, IdTexture, LineOverride, Override, PaintOverride, Selector, VertexColorRange,
 };
@@ -74,6 +76,8 @@ pub struct Style {
     pub paint: Paint,
     /// How lines are found and drawn.
     pub lines: Lines,
+    /// How motion is drawn.
+    pub motion: Motion,
     /// What differs for some objects, materials or colours. Later ones win, property by
     /// property.
     pub overrides: Vec<Override>,
@@ -89,6 +93,7 @@ impl Default for Style {
             light: StyleLight::default(),
             paint: Paint::default(),
             lines: Lines::default(),
+            motion: Motion::default(),
             overrides: Vec::new(),
         }
     }

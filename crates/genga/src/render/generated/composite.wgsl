@@ -6,6 +6,12 @@ var<uniform> frame: Frame;
 @group(0) @binding(1)
 var paint: texture_2d<f32>;
 
+@group(0) @binding(10)
+var beam_places: texture_2d<f32>;
+
+@group(0) @binding(11)
+var line_depths: texture_depth_2d;
+
 @group(0) @binding(2)
 var coverage: texture_2d<f32>;
 
@@ -21,9 +27,22 @@ var<uniform> glow: Glow;
 @group(0) @binding(6)
 var line_colors: texture_2d<f32>;
 
+@group(0) @binding(7)
+var beams_under: texture_2d<f32>;
+
+@group(0) @binding(8)
+var beams_through: texture_2d<f32>;
+
+@group(0) @binding(9)
+var beams_over: texture_2d<f32>;
+
 const FRAME_BACKGROUND: u32 = 4u;
 
+const FRAME_ORTHOGRAPHIC: u32 = 2u;
+
 const FRAME_OUTPUT_STRAIGHT: u32 = 64u;
+
+const FRAME_SHOW_BEAMS: u32 = 2048u;
 
 const FRAME_SHOW_LINES: u32 = 32u;
 
@@ -56,6 +75,14 @@ const SET_COLOR_LIGHT: u32 = 4u;
 struct Added {
     own: vec3f,
     other: vec3f
+}
+
+struct BeamPixel {
+    under: vec4f,
+    through: vec4f,
+    over: vec4f,
+    hidden: f32,
+    line_is_before: bool
 }
 
 struct Detect {
@@ -131,10 +158,53 @@ struct PaletteColor {
     lab: vec4f
 }
 
+fn beams_at(frame: Frame, pixel: vec2i) -> BeamPixel {
+    var result = BeamPixel(vec4f(0.0), vec4f(0.0), vec4f(0.0), 0.0, false);
+    if (!has_beams || (frame.flags & FRAME_SHOW_BEAMS) == 0u) {
+        return result;
+    }
+    let scale = i32(frame.paint_scale);
+    var place = vec4f(0.0);
+    for (var y = 0; y < scale; y++) {
+        for (var x = 0; x < scale; x++) {
+            let texel = pixel * scale + vec2i(x, y);
+            result.under += textureLoad(beams_under, texel, 0);
+            result.through += textureLoad(beams_through, texel, 0);
+            result.over += textureLoad(beams_over, texel, 0);
+            place += textureLoad(beam_places, texel, 0);
+        }
+    }
+    let part = 1.0 / f32(scale * scale);
+    result.under *= part;
+    result.through *= part;
+    result.over *= part;
+    result.hidden = place.y * part;
+    if (place.w > 0.0) {
+        let per_pixel = select(frame.gbuffer_scale, 1.0, frame.line_method == METHOD_CONTOUR);
+        let size = vec2i(textureDimensions(line_depths));
+        var nearest = 0.0;
+        for (var i = 0; i < 9; i++) {
+            let at = vec2f(pixel + vec2i(i % 3, i / 3) - 1) + 0.5;
+            let texel = clamp(vec2i(at * per_pixel), vec2i(0), size - 1);
+            nearest = max(nearest, textureLoad(line_depths, texel, 0));
+        }
+        let distance = distance_from_depth(frame, nearest);
+        result.line_is_before = nearest > 0.0 && distance < place.x / place.w * 1.001;
+    }
+    return result;
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
     return select(high, low, c <= vec3f(0.0031308));
+}
+
+fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return mix(frame.depth_range.y, frame.depth_range.x, depth);
+    }
+    return frame.depth_range.x / max(depth, 1e-30);
 }
 
 fn dither(pixel: vec2f) -> vec3f {
@@ -280,11 +350,26 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     let under = glow_of(GLOW_UNDER, pixel, LINEAR_BLEND);
     let through = glow_of(GLOW_LINES_THROUGH, pixel, LINEAR_BLEND);
     let above = glow_of(GLOW_OVER, pixel, LINEAR_BLEND);
+    let beams = beams_at(frame, pixel);
+    let shows_paint = (frame.flags & FRAME_SHOW_PAINT) != 0u;
+    if (has_beams) {
+        var shown = beams.under;
+        if (!shows_paint) {
+            shown *= 1.0 - paint_at(pixel).a;
+        }
+        color = over(shown, color);
+    }
     color = with_glow(under, LINEAR_BLEND, color);
-    if ((frame.flags & FRAME_SHOW_PAINT) != 0u) {
-        color = over(paint_at(pixel), color);
+    if (shows_paint) {
+        color = over(paint_at(pixel) * (1.0 - beams.hidden), color);
+    }
+    if (has_beams) {
+        color = over(beams.through, color);
     }
     color = with_glow(through, LINEAR_BLEND, color);
+    if (has_beams && beams.line_is_before) {
+        color = over(beams.over, color);
+    }
     let has_strokes = LINE_METHOD == METHOD_CONTOUR || LINE_METHOD == METHOD_REFERENCE;
     if (has_strokes || LINE_METHOD == METHOD_IMAGE) {
         var ink = vec4f(0.0);
@@ -294,14 +379,27 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
         else {
             ink = mask_coverage(pixel);
         }
+        if (has_beams && !beams.line_is_before) {
+            ink *= 1.0 - beams.hidden;
+        }
         let is_inked = (frame.flags & FRAME_SHOW_LINES) != 0u && any(ink > vec4f(0.0));
         let count = select(0u, frame.line_set_count, is_inked);
         for (var i = 0u; i < count; i++) {
             let line = line_color(i, pixel);
             let alpha = ink.x * line.a;
-            color = over(vec4f(line.rgb * alpha, alpha), color);
+            let drawn = over(vec4f(line.rgb * alpha, alpha), color);
+            if (has_beams) {
+                let multiplied = vec4f(color.rgb * mix(vec3f(1.0), line.rgb, alpha), color.a);
+                color = mix(drawn, multiplied, beams.through.a);
+            }
+            else {
+                color = drawn;
+            }
             ink = ink.yzwx;
         }
+    }
+    if (has_beams && !beams.line_is_before) {
+        color = over(beams.over, color);
     }
     color = with_glow(above, LINEAR_BLEND, color);
     let result = encoded(color);
@@ -330,5 +428,7 @@ override LINE_METHOD: u32 = 0u;
 override PAINT_SCALE: i32 = 1;
 
 override glow_mixes: bool = true;
+
+override has_beams: bool = false;
 
 override has_glow: bool = true;

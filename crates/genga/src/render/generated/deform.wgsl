@@ -26,7 +26,15 @@ struct Deform {
     weight_first: u32,
     target_count: u32,
     morph_first: u32,
-    reserved_0: u32
+    past_offset: u32,
+    smear: f32,
+    smear_from: f32,
+    smear_noise: f32,
+    smear_spacing: f32,
+    smear_seed: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct RestVertex {
@@ -51,6 +59,15 @@ struct WorldVertex {
     smooth_normal: u32,
     line: u32,
     hatch: u32
+}
+
+fn hashed(cell: vec3i, seed: u32) -> vec2f {
+    let scaled = bitcast<vec3u>(cell) * vec3u(2654435761u, 2246822519u, 3266489917u);
+    var h = scaled.x ^ scaled.y ^ scaled.z ^ (seed * 668265263u + 374761393u);
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return vec2f(f32(h & 65535u), f32(h >> 16u)) / 32767.5 - 1.0;
 }
 
 fn octahedral_pack(n: vec3f) -> u32 {
@@ -81,6 +98,42 @@ fn scaled(v: vec3f) -> vec3f {
 
 fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
+}
+
+fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f, rows: mat3x3f) -> vec3f {
+    if (deform.smear <= 0.0) {
+        return vec3f(0.0);
+    }
+    var before = vec3f(0.0);
+    for (var i = 0u; i < 4u; i++) {
+        if (weights[i] > 0.0) {
+            let first = 3u * (deform.past_offset + deform.matrix_first + joints[i]);
+            before += weights[i] * vec3f(dot(matrices[first], vec4f(p, 1.0)), dot(matrices[first + 1u], vec4f(p, 1.0)), dot(matrices[first + 2u], vec4f(p, 1.0)));
+        }
+    }
+    let way = before - p_in_world;
+    let length_m = length(way);
+    let fast = saturate((length_m / max(deform.smear_from, 1e-9) - 1.0) / 0.5);
+    if (!(length_m > 1e-9 && length_m < 1000000.0) || fast <= 0.0) {
+        return vec3f(0.0);
+    }
+    let cofactors = vec3f(dot(cross(rows[1], rows[2]), n), dot(cross(rows[2], rows[0]), n), dot(cross(rows[0], rows[1]), n));
+    let trailing = saturate(dot(normalize(scaled(cofactors)), way / length_m));
+    let noise = 0.5 + 0.5 * value_noise(p / max(deform.smear_spacing, 1e-6), deform.smear_seed).x;
+    return way * deform.smear * fast * trailing * mix(1.0, noise, deform.smear_noise);
+}
+
+fn value_noise(p: vec3f, seed: u32) -> vec2f {
+    let cell = floor(p);
+    let part = p - cell;
+    let w = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    var sum = vec2f(0.0);
+    for (var i = 0; i < 8; i++) {
+        let corner = vec3i(i & 1, (i >> 1) & 1, i >> 2);
+        let weights = select(1.0 - w, w, corner == vec3i(1));
+        sum += weights.x * weights.y * weights.z * hashed(vec3i(cell) + corner, seed);
+    }
+    return sum;
 }
 
 @compute @workgroup_size(64)
@@ -120,6 +173,10 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
         }
     }
     let p_in_world = vec3f(dot(row_x, vec4f(p, 1.0)), dot(row_y, vec4f(p, 1.0)), dot(row_z, vec4f(p, 1.0)));
+    var placed = p_in_world;
+    if (SMEAR) {
+        placed += smeared(p, p_in_world, joints, weights / total, smooth_n, mat3x3f(row_x.xyz, row_y.xyz, row_z.xyz));
+    }
     let c_x = cross(row_y.xyz, row_z.xyz);
     let c_y = cross(row_z.xyz, row_x.xyz);
     let c_z = cross(row_x.xyz, row_y.xyz);
@@ -128,5 +185,7 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     let smooth_in_world = side * vec3f(dot(c_x, smooth_n), dot(c_y, smooth_n), dot(c_z, smooth_n));
     let d = octahedral_unpack(vertex.hatch);
     let d_in_world = vec3f(dot(row_x.xyz, d), dot(row_y.xyz, d), dot(row_z.xyz, d));
-    world[deform.world_first + index] = WorldVertex(p_in_world.x, p_in_world.y, p_in_world.z, octahedral_pack(scaled(n_in_world)), octahedral_pack(scaled(smooth_in_world)), vertex.line, octahedral_pack(scaled(d_in_world)));
+    world[deform.world_first + index] = WorldVertex(placed.x, placed.y, placed.z, octahedral_pack(scaled(n_in_world)), octahedral_pack(scaled(smooth_in_world)), vertex.line, octahedral_pack(scaled(d_in_world)));
 }
+
+override SMEAR: bool = false;

@@ -144,6 +144,8 @@ const HIGHLIGHT_ON_PANORAMA: u32 = 1u;
 
 const HIGHLIGHT_REPLACES: u32 = 2u;
 
+const LIGHT_BEAM: u32 = 4u;
+
 const LIGHT_DIRECTIONAL: u32 = 0u;
 
 const LIGHT_SKY: u32 = 3u;
@@ -1109,7 +1111,11 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
         return LightTerm(dot(normal, direction), direction);
     }
-    let offset = light.position.xyz - p_in_world;
+    var offset = light.position.xyz - p_in_world;
+    if (light.kind == LIGHT_BEAM) {
+        let part = -dot(offset, direction) / max(dot(direction, direction), 1e-12);
+        offset += saturate(part) * direction;
+    }
     let distance_squared = max(dot(offset, offset), 1e-12);
     let to_light = offset * inverseSqrt(distance_squared);
     var falloff = 1.0;
@@ -1120,6 +1126,9 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     if (light.kind == LIGHT_SPOT) {
         let cosine = dot(-to_light, direction);
         falloff *= saturate((cosine - factors.w) / max(factors.z - factors.w, 0.0001));
+    }
+    if (light.kind == LIGHT_BEAM) {
+        return LightTerm(falloff * max(dot(normal, to_light), 0.0), to_light);
     }
     return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
 }

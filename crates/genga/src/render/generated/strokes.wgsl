@@ -41,6 +41,8 @@ const CURVE_SCREEN_CURVATURE: u32 = 2u;
 
 const CURVE_TAPER: u32 = 4u;
 
+const FRAME_LINE_DEPTHS: u32 = 1024u;
+
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SMALL_DETECTION: u32 = 512u;
@@ -527,7 +529,8 @@ fn wobble_at(line_set: u32, piece: u32, at_b: bool, depth: f32) -> vec2f {
 fn stroke_color_fragment(in: Stroke) -> Colored {
     let ink = ink_at(in);
     let wanted = SET_COLOR_BASE | SET_COLOR_LIGHT;
-    if (all(ink.coverage == vec4f(0.0)) || (frame.line_sets[in.what.x].flags & wanted) == 0u) {
+    let is_wanted = ((frame.line_sets[in.what.x].flags & wanted) | (frame.flags & FRAME_LINE_DEPTHS)) != 0u;
+    if (all(ink.coverage == vec4f(0.0)) || !is_wanted) {
         discard;
     }
     let color = mix(unpack4x8unorm(in.what.z), unpack4x8unorm(in.what.w), ink.t);

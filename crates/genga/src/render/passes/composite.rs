@@ -33,6 +33,7 @@ struct Kind {
     line_method: u32,
     line_colors: bool,
     linear_blend: bool,
+    beams: bool,
 }
 
 impl CompositePass {
@@ -45,6 +46,11 @@ impl CompositePass {
             (4, B::FloatLayers),
             (5, B::Uniform),
             (6, B::Float),
+            (7, B::Float),
+            (8, B::Float),
+            (9, B::Float),
+            (10, B::Float),
+            (11, B::Depth),
         ];
         let layout = layout(device, "composite", wgpu::ShaderStages::FRAGMENT, &bindings);
         let pipeline_layout = pipeline_layout(device, "composite", &[&layout]);
@@ -63,6 +69,7 @@ impl CompositePass {
     ) {
         use wgpu::BindingResource as R;
         let colors = targets.line_colors.as_ref().map_or(&targets.no_colors, |[colors, _]| colors);
+        let line_depths = targets.line_colors.as_ref().map_or(&targets.depth, |[_, depth]| depth);
         let group = group(
             device,
             "composite",
@@ -75,6 +82,11 @@ impl CompositePass {
                 (4, R::TextureView(&targets.glow.view)),
                 (5, prepared.waves.glow.as_entire_binding()),
                 (6, R::TextureView(&colors.view)),
+                (7, R::TextureView(&targets.beams.layers[0].view)),
+                (8, R::TextureView(&targets.beams.layers[1].view)),
+                (9, R::TextureView(&targets.beams.layers[2].view)),
+                (10, R::TextureView(&targets.beams.places.view)),
+                (11, R::TextureView(&line_depths.view)),
             ],
         );
         let style = &prepared.style;
@@ -83,6 +95,7 @@ impl CompositePass {
             Kind {
                 format,
                 glow: prepared.waves.glow_kind(style),
+                beams: targets.size.beams,
                 paint_scale: targets.size.paint_scale,
                 line_method: line_method(style),
                 line_colors: has_line_colors(style),
@@ -105,6 +118,7 @@ impl CompositePass {
         let constants = [
             ("has_glow", number(kind.glow.shows)),
             ("glow_mixes", number(kind.glow.mixes)),
+            ("has_beams", number(kind.beams)),
             ("PAINT_SCALE", f64::from(kind.paint_scale)),
             ("LINE_METHOD", f64::from(kind.line_method)),
             ("LINE_COLORS", number(kind.line_colors)),

@@ -1,5 +1,6 @@
 //! One file a pass; each has its shader under `shaders/passes/` by the same name.
 
+pub(crate) mod beams;
 pub(crate) mod candidates;
 pub(crate) mod composite;
 pub(crate) mod deform;
@@ -12,6 +13,7 @@ pub(crate) mod plain;
 pub(crate) mod reference;
 pub(crate) mod seams;
 pub(crate) mod shadow;
+pub(crate) mod speed_lines;
 pub(crate) mod strokes;
 pub(crate) mod surface;
 pub(crate) mod walk;

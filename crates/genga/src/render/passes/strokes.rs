@@ -76,7 +76,7 @@ impl StrokePass {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("line colours"),
                 color_attachments: &[cleared(&colors.view, None)],
-                depth_stencil_attachment: cleared_depth(&depth.view, wgpu::StoreOp::Discard),
+                depth_stencil_attachment: cleared_depth(&depth.view, wgpu::StoreOp::Store),
                 timestamp_writes: timer.render("line colours"),
                 ..Default::default()
             });

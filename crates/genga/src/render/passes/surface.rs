@@ -428,8 +428,8 @@ type NumberedItems<'a> = Vec<(usize, &'a DrawItem)>;
 /// The opaque and masked draws in their order, then the blended ones from back to front as seen
 /// from `eye` (`w` as in `Frame::eye`).
 pub(crate) fn sorted_items(prepared: &Prepared, eye: glam::Vec4) -> [NumberedItems<'_>; 2] {
-    let (opaque, mut blended): (Vec<_>, Vec<_>) =
-        prepared.draws.iter().enumerate().partition(|(_, item)| !item.blend);
+    let surfaces = prepared.draws.iter().enumerate().filter(|(_, item)| item.beam.is_none());
+    let (opaque, mut blended): (Vec<_>, Vec<_>) = surfaces.partition(|(_, item)| !item.blend);
     let nearness = |item: &DrawItem| {
         if eye.w > 0.0 {
             -item.center.distance_squared(eye.truncate())

@@ -6,6 +6,7 @@ use glam::{Vec3, Vec4};
 
 use super::{
     DeformData, DrawItem, NodeDeform, Prepared,
+    beams::{BeamData, beam_of},
     directions::{self, Source},
     drawn, dynamic_binding,
     geometry::{Chunk, Geometry, GeometryBuilder},
@@ -15,6 +16,7 @@ use super::{
     pages::{PAGE_BYTES, Place},
     shading::{Shadings, shading_of},
     shadows::{self, Shadows},
+    speed_lines::SpeedLineData,
     strokes::{self, StrokeData},
     textures::Textures,
     waves::WaveData,
@@ -24,7 +26,7 @@ use crate::render::{
     gpu::bindings,
     layouts::Layouts,
 };
-use crate::scene::{AlphaMode, Image, Material, Pose, Sampler, Scene, TextureRef};
+use crate::scene::{AlphaMode, BeamShape, Image, Material, Pose, Sampler, Scene, TextureRef};
 use crate::style::{self, LineSet, Style};
 
 /// A mesh, and where the hatching directions of its primitives come from.
@@ -100,6 +102,7 @@ impl<'a> Builder<'a> {
         for index in (0..self.scene.nodes.len()).filter(|&i| pose.visible[i]) {
             self.add_node(index);
         }
+        self.add_smears();
         self.finish(&pose)
     }
 
@@ -165,6 +168,7 @@ impl<'a> Builder<'a> {
             let shading = shading_of(scene, index, &node.name, &material.name);
             let group = self.material_group(primitive.material, material, &look, shading);
             let highlights = self.highlights.of(index, &node.name, &material.name);
+            let beam = beam_of(scene, index, &node.name, &material.name);
             for chunk in chunks {
                 let world = self.world_place(chunk.vertex_count);
                 self.deforms.push((
@@ -176,7 +180,7 @@ impl<'a> Builder<'a> {
                         weight_first: deform.weight_first,
                         target_count: chunk.target_count,
                         morph_first: chunk.morph.first,
-                        reserved_0: 0,
+                        ..bytemuck::Zeroable::zeroed()
                     },
                     [chunk.rest.page, world.page, chunk.morph.page],
                 ));
@@ -191,10 +195,12 @@ impl<'a> Builder<'a> {
                     double_sided: material.double_sided,
                     blend: material.alpha == AlphaMode::Blend,
                     mirrored: false,
-                    casts_shadow: look.casts_shadow,
+                    casts_shadow: look.casts_shadow && beam.is_none(),
+                    beam,
                     tests_alpha: material.alpha != AlphaMode::Opaque,
                     center: chunk.center,
                     matrix_first,
+                    surface: [index, p],
                     hatch: look.hatch.variant,
                     look: drawn::variant(material, primitive, look.rule_count > 0),
                     chunk,
@@ -300,6 +306,31 @@ impl<'a> Builder<'a> {
         self.materials.len() - 1
     }
 
+    /// What the deformation must know of smears.
+    fn add_smears(&mut self) {
+        let motion = &self.style.motion;
+        let Some(smear) = motion.smear.as_ref().filter(|_| motion.is_drawn()) else { return };
+        let rest = Pose::rest(self.scene);
+        for ((deform, _), item) in self.deforms.iter_mut().zip(&self.draws) {
+            let [node, primitive] = item.surface;
+            let object = &self.scene.nodes[node];
+            let mesh = object.mesh.and_then(|mesh| self.scene.meshes.get(mesh));
+            let material = mesh.and_then(|mesh| mesh.primitives[primitive].material);
+            let material = material.map_or("", |m| self.scene.materials[m].name.as_str());
+            if !(smear.objects.matches(&object.name) && smear.materials.matches(material)) {
+                continue;
+            }
+            let matrix = rest.world_from_node[node].matrix3;
+            let metres = matrix.determinant().abs().max(1e-30).cbrt();
+            deform.past_offset = self.matrix_count;
+            deform.smear = smear.amount;
+            deform.smear_from = smear.threshold * motion.shutter_s();
+            deform.smear_noise = smear.noise;
+            deform.smear_spacing = smear.spacing / metres;
+            deform.smear_seed = smear.seed;
+        }
+    }
+
     fn world_place(&mut self, vertex_count: u32) -> Place {
         let capacity = (PAGE_BYTES / size_of::<WorldVertex>()) as u32;
         let fits = self.world_pages.last().is_some_and(|&used| used + vertex_count <= capacity);
@@ -361,6 +392,8 @@ impl<'a> Builder<'a> {
         let (sets, warned) = self.highlights.finish();
         let highlights = Highlights::new(device, queue, self.layouts, self.scene, sets, self.style);
         let mut warnings = self.geometry.warnings;
+        let speed_lines =
+            SpeedLineData::new(device, queue, self.scene, self.style, &self.draws, &mut warnings);
         warnings.extend(self.textures.warnings);
         if lights.len() > MAX_LIGHTS {
             warnings.push(format!(
@@ -374,6 +407,16 @@ impl<'a> Builder<'a> {
                  than {}: the weaker lights cast no shadows",
                 shadows::MAX_MAPS
             ));
+        }
+        for (i, beam) in self.scene.beams.iter().enumerate() {
+            let is_marked = matches!(beam.shape, BeamShape::Surfaces { .. });
+            if is_marked && !self.draws.iter().any(|draw| draw.beam == Some(i)) {
+                warnings.push(format!(
+                    "beam {i} '{}' marks no surface: no object and material has such names, or a \
+                     later one has them all",
+                    beam.name
+                ));
+            }
         }
         for (i, shading) in self.scene.shadings.iter().enumerate() {
             let number = i as u32 + 1;
@@ -422,6 +465,8 @@ impl<'a> Builder<'a> {
             strokes,
             highlights,
             waves: WaveData::new(device, queue),
+            beams: BeamData::new(device, queue),
+            speed_lines,
             bounds: None,
             max_width_factor,
             draw_values: self.draw_values,
@@ -433,7 +478,9 @@ impl<'a> Builder<'a> {
     fn deform_data(&self, geometry: &Geometry) -> DeformData {
         use wgpu::BufferUsages as Usage;
         let stored = Usage::STORAGE;
-        let matrices = vec![[Vec4::ZERO; 3]; self.matrix_count.max(1) as usize];
+        let has_smear = self.deforms.iter().any(|(deform, _)| deform.past_offset > 0);
+        let count = self.matrix_count.max(1) as usize * if has_smear { 2 } else { 1 };
+        let matrices = vec![[Vec4::ZERO; 3]; count];
         let matrices = bindings::buffer(
             self.device,
             self.queue,
@@ -475,6 +522,7 @@ impl<'a> Builder<'a> {
             uniforms,
             nodes: self.nodes.clone(),
             matrix_count: self.matrix_count as usize,
+            has_smear,
             weight_count: self.weight_count as usize,
         }
     }

@@ -1,5 +1,6 @@
 //! Scene and style → buffers, bind groups and draw lists. The passes read only what is here.
 
+pub(crate) mod beams;
 mod build;
 mod directions;
 mod drawn;
@@ -11,6 +12,7 @@ pub(crate) mod pages;
 pub(crate) mod shading;
 pub(crate) mod shadows;
 pub(crate) mod shine;
+pub(crate) mod speed_lines;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
@@ -21,6 +23,7 @@ use std::collections::HashMap;
 use glam::{Affine3A, Vec3, Vec4};
 
 use self::{
+    beams::BeamData,
     build::Builder,
     geometry::{Chunk, Geometry},
     highlights::Highlights,
@@ -28,6 +31,7 @@ use self::{
     pages::Place,
     shading::Shadings,
     shadows::Shadows,
+    speed_lines::SpeedLineData,
     strokes::StrokeData,
     waves::WaveData,
 };
@@ -59,6 +63,8 @@ pub struct Prepared {
     pub(crate) strokes: StrokeData,
     pub(crate) highlights: Highlights,
     pub(crate) waves: WaveData,
+    pub(crate) beams: BeamData,
+    pub(crate) speed_lines: SpeedLineData,
     pub(crate) bounds: Option<Aabb>,
     pub(crate) max_width_factor: f32,
     /// Nodes that depth curves count from: number, and place in the present pose.
@@ -81,6 +87,8 @@ pub(crate) struct DrawItem {
     pub(crate) casts_shadow: bool,
     /// Whether parts of it may be cut out or see-through.
     pub(crate) tests_alpha: bool,
+    /// Its node and the number of its primitive.
+    pub(crate) surface: [usize; 2],
     /// Middle in world space, for sorting.
     pub(crate) center: Vec3,
     /// What its base colour and looks need.
@@ -89,6 +97,8 @@ pub(crate) struct DrawItem {
     matrix_first: u32,
     /// What its hatching needs; `None` if it has none.
     pub(crate) hatch: Option<HatchVariant>,
+    /// The beam that it is drawn as, instead of as a surface.
+    pub(crate) beam: Option<usize>,
 }
 
 /// What the deformation of a scene needs.
@@ -99,6 +109,8 @@ pub(crate) struct DeformData {
     pub(crate) uniforms: wgpu::BindGroup,
     nodes: Vec<NodeDeform>,
     matrix_count: usize,
+    /// Whether the matrices of the past follow, by which what trails is smeared.
+    pub(crate) has_smear: bool,
     weight_count: usize,
 }
 
@@ -150,28 +162,42 @@ impl Prepared {
                 == [nodes; 3]
     }
 
-    /// Brings the scene to a pose: matrices, weights, lights, waves. The caller then runs `deform`.
-    pub(crate) fn write_pose(
-        &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        scene: &Scene,
-        pose: &Pose,
-    ) {
-        self.waves.write(device, queue, &scene.waves, scene.wave_method, pose);
+    /// Matrices of all joints and nodes, as the deformation wants them.
+    fn matrices(&self, scene: &Scene, pose: &Pose) -> Vec<Affine3A> {
         let mut matrices = vec![Affine3A::IDENTITY; self.deform.matrix_count];
-        let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
         for deform in &self.deform.nodes {
             let first = deform.matrix_first as usize;
             let joints = pose.world_from_rest(scene, deform.node).unwrap_or_default();
             let count = joints.len().min(deform.joint_count as usize);
             matrices[first..first + count].copy_from_slice(&joints[..count]);
             matrices[first + deform.joint_count as usize] = pose.world_from_node[deform.node];
+        }
+        matrices
+    }
+
+    /// Brings the scene to a pose, with the poses before it for speed lines and smears: matrices, weights, lights, waves. The caller then runs `deform`.
+    pub(crate) fn write_pose(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene: &Scene,
+        (pose, past): (&Pose, &[Pose]),
+    ) {
+        self.waves.write(device, queue, &scene.waves, scene.wave_method, pose);
+        self.beams.write(device, queue, &scene.beams, pose, self.style.paint.blend_space);
+        let motion = (pose, past);
+        self.speed_lines.write(device, queue, scene, motion, self.style.motion.shutter_s());
+        let mut matrices = self.matrices(scene, pose);
+        let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
+        for deform in &self.deform.nodes {
             let (first, count) = (deform.weight_first as usize, deform.weight_count as usize);
             let posed = &pose.morph_weights[deform.node];
             for (slot, weight) in weights[first..first + count].iter_mut().zip(posed) {
                 *slot = if weight.is_finite() { *weight } else { 0.0 };
             }
+        }
+        if self.deform.has_smear {
+            matrices.extend(self.matrices(scene, past.last().unwrap_or(pose)));
         }
         let rows: Vec<[Vec4; 3]> = matrices
             .iter()

@@ -72,20 +72,23 @@ impl StrokeData {
             });
             order = order.wrapping_add(count);
         };
+        // Beams have no lines.
+        let draws: Vec<(usize, &DrawItem)> =
+            draws.iter().enumerate().filter(|(_, item)| item.beam.is_none()).collect();
         let mut line_count = 0_usize;
-        for (i, item) in draws.iter().enumerate() {
+        for &(i, item) in &draws {
             for &(place, count) in &item.chunk.edges {
                 line_count += count as usize;
                 run(item, i, place.page, place.first, count);
             }
         }
-        for (i, item) in draws.iter().enumerate() {
+        for &(i, item) in &draws {
             for &(place, count) in &item.chunk.contours {
                 line_count += count as usize / 8;
                 run(item, i, place.page, place.first, count);
             }
         }
-        for (i, item) in draws.iter().enumerate() {
+        for &(i, item) in &draws {
             run(item, i, 0, 0, item.chunk.index_count);
         }
         let uniforms = bindings::dynamic_uniforms(device, queue, "stroke ranges", &ranges);
@@ -111,8 +114,8 @@ impl StrokeData {
             let group = groups.entry(pages).or_insert_with(make).clone();
             (group, (i as u64 * DYNAMIC_STRIDE) as u32, count)
         });
-        let edge_runs = draws.iter().map(|item| item.chunk.edges.len()).sum();
-        let contour_runs = draws.iter().map(|item| item.chunk.contours.len()).sum();
+        let edge_runs = draws.iter().map(|(_, item)| item.chunk.edges.len()).sum();
+        let contour_runs = draws.iter().map(|(_, item)| item.chunk.contours.len()).sum();
         let edges = runs.by_ref().take(edge_runs).collect();
         let contours = runs.by_ref().take(contour_runs).collect();
         let reference = runs.collect();
