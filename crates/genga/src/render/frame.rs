@@ -58,6 +58,8 @@ pub(crate) struct Output {
     pub(crate) lines: bool,
     /// The waves.
     pub(crate) glow: bool,
+    /// The waves' energy beside it.
+    pub(crate) energy: bool,
     /// Whether the glow is dithered for 8 bits a channel.
     pub(crate) dithered: bool,
     /// Linear light instead of sRGB-encoded values.

@@ -251,6 +251,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            energy: picture.layers.iter().any(|layer| layer.kind == LayerKind::Energy),
             dithered: true,
             linear: false,
             straight: true,

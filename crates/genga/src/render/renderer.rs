@@ -31,8 +31,9 @@ use super::{
         lights::{MAX_LIGHTS, lights_in_view},
         waves,
     },
-    targets::{ListGrid, TargetSize, Targets},
+    targets::{TargetSize, Targets},
     view::{Projected, View},
+    wave_targets::WaveTargets,
 };
 use crate::scene::{Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
@@ -210,6 +211,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            energy: false,
             dithered: is_8_bit(format),
             linear: is_linear(format),
             straight: false,
@@ -260,7 +262,7 @@ impl Renderer {
             }
             LineMethod::None | LineMethod::Hull | LineMethod::Rim | LineMethod::Image => {}
         }
-        self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
+        self.draw_waves(encoder, prepared, view, (tile, output), (&projected, &targets), timer);
         targets
     }
 
@@ -298,14 +300,14 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         view: &View,
-        tile: Tile,
+        (tile, output): (Tile, Output),
         (projected, targets): (&Projected, &Targets),
         timer: &mut Timer,
     ) {
         let Some(waves) = &targets.waves else { return };
         let pass = self.waves.get_or_init(|| WavePass::new(&self.device));
-        self.write_wave_view(prepared, view, tile, waves.grid);
-        let kind = prepared.waves.exact_kind(view, projected);
+        self.write_wave_view(prepared, view, tile, waves);
+        let kind = prepared.waves.exact_kind(view, projected, output.energy);
         pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 
@@ -336,13 +338,19 @@ impl Renderer {
         maps
     }
 
-    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, grid: ListGrid) {
+    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, targets: &WaveTargets) {
         let projected = Projected::new(&view.camera, view.size, prepared.bounds);
         // A smaller detection has the picture's depth beside it.
         let scale = gbuffer_scale(prepared, view);
         let scale = if scale.is_small() { 1 } else { scale.texels };
-        let values = waves::view_values(&prepared.waves, view, &projected, tile, grid, scale);
-        self.queue.write_buffer(&prepared.waves.view, 0, bytemuck::bytes_of(&values));
+        let has_surfaces = !prepared.draws.is_empty();
+        let data = &prepared.waves;
+        let values = waves::view_values(data, view, &projected, tile, scale, has_surfaces);
+        self.queue.write_buffer(&data.view, 0, bytemuck::bytes_of(&values));
+        let levels = targets.grid.levels(tile.origin, tile.size);
+        for (buffer, values) in targets.levels.iter().zip(&levels) {
+            self.queue.write_buffer(buffer, 0, bytemuck::bytes_of(values));
+        }
     }
 
     /// Runs the last step alone, with other contents than the frame's.
@@ -409,6 +417,7 @@ impl Renderer {
             paint: true,
             lines: true,
             glow: true,
+            energy: false,
             dithered: true,
             linear: false,
             straight: false,
@@ -433,7 +442,7 @@ impl Renderer {
                         &mut encoder,
                         prepared,
                         view,
-                        tile,
+                        (tile, output),
                         (&projected, &targets),
                         timer,
                     );
