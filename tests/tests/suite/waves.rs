@@ -332,6 +332,32 @@ fn a_picture_in_tiles_has_the_same_waves() {
 }
 
 #[test]
+fn a_picture_in_tiles_has_the_same_waves_behind_a_wall() {
+    let mut scene = wall();
+    let placement = WavePlacement::At {
+        anchor: genga::scene::WaveAnchor { nodes: Vec::new(), offset: Vec3::new(-1.5, 0.0, -0.6) },
+        direction: Vec3::new(0.9, 0.1, 0.4),
+        follow: false,
+        roll: 0.0,
+    };
+    let shape = WaveShape::Helix { length: 4.0, radius: 0.5, turns: 5.0, phase: 0.0 };
+    scene.waves = vec![Wave { placement, ..wave(shape) }];
+    let view = View { supersample: 1, ..perspective_view([150, 130], 40.0, 6.0) };
+    let shared = genga_tests::shared();
+    let _turn = shared.turn();
+    let prepared = shared.renderer.prepare(&scene, &style("")).expect("the scene is valid");
+    let draw = |limit| {
+        let mut progress = |_, _| {};
+        let tiles = shared.renderer.picture_in_tiles(&prepared, &view, &[], limit, &mut progress);
+        pollster::block_on(tiles).expect("the picture can be drawn").rgba
+    };
+    for (i, (a, b)) in draw(4096).iter().zip(draw(100)).enumerate() {
+        let (x, y) = (i / 4 % 150, i / 600);
+        assert!(a.abs_diff(b) <= 1, "at {x}, {y}: {a} and {b}");
+    }
+}
+
+#[test]
 fn orders_and_blend_spaces_decide_what_is_added_to_what() {
     let mut scene = Builder::new();
     let red = scene.material(genga::scene::Material {
