@@ -396,10 +396,10 @@ fn point_at(first: u32, index: u32) -> vec3f {
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
-    }
-    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let linear = mix(view.depth_range.y, view.depth_range.x, depth);
+    let projected = view.depth_range.x / max(depth, 1e-30) * ray.slant;
+    return select(select(projected, linear, is_orthographic), 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -556,12 +556,11 @@ fn trig_sum(first: u32, count: u32, angle: f32) -> f32 {
 
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return ViewRay(view.origin.xyz + moved, view.corner.xyz, 1.0);
-    }
-    let direction = view.corner.xyz + moved;
-    let slant = length(direction);
-    return ViewRay(view.origin.xyz, direction / slant, slant);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let turned = view.corner.xyz + select(moved, vec3f(0.0), is_orthographic);
+    let shifted = view.origin.xyz + select(vec3f(0.0), moved, is_orthographic);
+    let slant = select(length(turned), 1.0, is_orthographic);
+    return ViewRay(shifted, turned / slant, slant);
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {

@@ -400,10 +400,10 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
-    }
-    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let linear = mix(view.depth_range.y, view.depth_range.x, depth);
+    let projected = view.depth_range.x / max(depth, 1e-30) * ray.slant;
+    return select(select(projected, linear, is_orthographic), 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -423,23 +423,17 @@ fn square_ray(corner: vec2u, pixels: u32) -> SquareRay {
     let low = vec2f(corner);
     let side = f32(pixels);
     let ray = view_ray(low + 0.5 * side);
-    var spread = vec2f(0.0);
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        spread.x = 0.7072 * side * view.pixel_footprint;
+    var turn = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
+        turn = max(turn, length(at.direction - ray.direction));
     }
-    else {
-        for (var i = 0u; i < 4u; i++) {
-            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
-            spread.y = max(spread.y, length(at.direction - ray.direction));
-        }
-    }
-    return SquareRay(ray, spread);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let shift = 0.7072 * side * view.pixel_footprint;
+    return SquareRay(ray, select(vec2f(0.0, turn), vec2f(shift, 0.0), is_orthographic));
 }
 
 fn square_surfaces(corner: vec2u, middle: SquareRay) -> vec2f {
-    if ((view.flags & WAVE_VIEW_SURFACES) == 0u) {
-        return vec2f(1e30);
-    }
     let side = level.side / level.scale;
     let first = vec2i(corner / side) - vec2i(view.tile_origin / side);
     let last = vec2i(level.finest) - 1;
@@ -453,17 +447,17 @@ fn square_surfaces(corner: vec2u, middle: SquareRay) -> vec2f {
     let near = ray_distance(middle.ray, range.x);
     let far = ray_distance(middle.ray, range.y);
     let slack = middle.spread.y * (middle.ray.slant + 1.0);
-    return vec2f(near * (1.0 - slack), far * (1.0 + slack));
+    let seen = vec2f(near * (1.0 - slack), far * (1.0 + slack));
+    return select(vec2f(1e30), seen, (view.flags & WAVE_VIEW_SURFACES) != 0u);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return ViewRay(view.origin.xyz + moved, view.corner.xyz, 1.0);
-    }
-    let direction = view.corner.xyz + moved;
-    let slant = length(direction);
-    return ViewRay(view.origin.xyz, direction / slant, slant);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let turned = view.corner.xyz + select(moved, vec3f(0.0), is_orthographic);
+    let shifted = view.origin.xyz + select(vec3f(0.0), moved, is_orthographic);
+    let slant = select(length(turned), 1.0, is_orthographic);
+    return ViewRay(shifted, turned / slant, slant);
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
