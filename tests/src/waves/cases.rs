@@ -37,6 +37,30 @@ pub fn shapes() -> Vec<(&'static str, WaveShape)> {
     ]
 }
 
+/// The same curve, larger or smaller.
+#[must_use]
+pub fn scaled(shape: &WaveShape, factor: f32) -> WaveShape {
+    let mut shape = shape.clone();
+    match &mut shape {
+        WaveShape::Sphere | WaveShape::Cylinder { length: None } => {}
+        WaveShape::Cylinder { length: Some(length) } | WaveShape::Capsule { length } => {
+            *length *= factor;
+        }
+        WaveShape::Helix { length, radius, .. } => {
+            *length *= factor;
+            *radius *= factor;
+        }
+        WaveShape::Trig { length, y, z, .. } => {
+            *length *= factor;
+            y.iter_mut().chain(z).flatten().for_each(|t| *t *= factor);
+        }
+        WaveShape::Bezier { points }
+        | WaveShape::BSpline { points, .. }
+        | WaveShape::Polyline { points } => points.iter_mut().for_each(|p| *p *= factor),
+    }
+    shape
+}
+
 /// Of a Bézier curve of degree 4.
 #[must_use]
 pub fn bezier_points() -> [Vec3; 5] {
@@ -95,6 +119,8 @@ pub fn energies(scene: &Scene, view: &View) -> Vec<f32> {
 pub struct Errors {
     /// The largest relative error.
     pub largest: f64,
+    /// What 99 of 100 are at most.
+    pub p99: f64,
     /// Their mean.
     pub mean: f64,
     /// The largest error as a part of the brightest energy.
@@ -117,6 +143,7 @@ pub fn errors(
     let peak = f64::from(energies.iter().copied().fold(0.0, f32::max)).max(1e-12);
     let mut random = Random(7);
     let mut errors = Errors::default();
+    let mut all = Vec::with_capacity(count);
     for i in 0..count {
         let mut pixel = view.size.map(|n| random.below(n));
         if i % 4 == 0 {
@@ -136,9 +163,12 @@ pub fn errors(
         errors.largest = errors.largest.max(relative);
         errors.of_peak = errors.of_peak.max(off / peak);
         errors.mean += relative;
+        all.push(relative);
         errors.rays += 1;
     }
     errors.mean /= errors.rays.max(1) as f64;
+    all.sort_by(f64::total_cmp);
+    errors.p99 = all.get(all.len() * 99 / 100).copied().unwrap_or_default();
     errors
 }
 

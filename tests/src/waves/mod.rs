@@ -160,6 +160,8 @@ impl Reference {
             marks.push(t0 + (t1 - t0) * f64::from(i) / 160.0);
             marks.push(nearest + half * (f64::from(i) / 80.0 - 1.0));
         }
+        // Rounding must not cut off the ends.
+        marks.extend([t0, t1]);
         marks.retain(|t| *t >= t0 && *t <= t1);
         marks.sort_by(f64::total_cmp);
         integral(&|t| self.density(o + d * t, t) * self.fading(t), &marks)

@@ -59,6 +59,8 @@ pub(crate) struct Output {
     /// The waves.
     pub(crate) glow: bool,
     pub(crate) beams: bool,
+    /// The waves' energy beside it.
+    pub(crate) energy: bool,
     /// Whether the glow is dithered for 8 encoded bits a channel.
     pub(crate) dithered: bool,
     /// Straight alpha instead of premultiplied.

@@ -16,6 +16,7 @@ mod prepare;
 mod renderer;
 mod targets;
 mod view;
+mod wave_targets;
 
 pub use error::RenderError;
 pub use gpu::{Gpu, GpuError, GpuOptions, adapters};

@@ -257,6 +257,7 @@ impl Renderer {
             lines: true,
             glow: true,
             beams: true,
+            energy: picture.layers.iter().any(|layer| layer.kind == LayerKind::Energy),
             dithered: true,
             straight: true,
         };

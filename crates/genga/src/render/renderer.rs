@@ -36,8 +36,9 @@ use super::{
         lights::{MAX_LIGHTS, lights_in_view},
         waves,
     },
-    targets::{ListGrid, TargetSize, Targets},
+    targets::{TargetSize, Targets},
     view::{Projected, View},
+    wave_targets::WaveTargets,
 };
 use crate::scene::{Beam, Pose, Scene, Wave, WaveMethod};
 use crate::style::{LineMethod, Style};
@@ -258,6 +259,7 @@ impl Renderer {
             lines: true,
             glow: true,
             beams: true,
+            energy: false,
             dithered: is_8_bit(format) && !format.is_srgb(),
             straight: false,
         };
@@ -315,7 +317,7 @@ impl Renderer {
             let pass = self.speed_lines.get_or_init(|| SpeedLinePass::new(device));
             pass.run(device, encoder, prepared, &targets, timer);
         }
-        self.draw_waves(encoder, prepared, view, tile, (&projected, &targets), timer);
+        self.draw_waves(encoder, prepared, view, (tile, output), (&projected, &targets), timer);
         targets
     }
 
@@ -354,14 +356,14 @@ impl Renderer {
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         view: &View,
-        tile: Tile,
+        (tile, output): (Tile, Output),
         (projected, targets): (&Projected, &Targets),
         timer: &mut Timer,
     ) {
         let Some(waves) = &targets.waves else { return };
         let pass = self.waves.get_or_init(|| WavePass::new(&self.device));
-        self.write_wave_view(prepared, view, tile, waves.grid);
-        let kind = prepared.waves.exact_kind(view, projected);
+        self.write_wave_view(prepared, view, tile, waves);
+        let kind = prepared.waves.exact_kind(view, projected, output.energy);
         pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 
@@ -393,13 +395,19 @@ impl Renderer {
         maps
     }
 
-    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, grid: ListGrid) {
+    fn write_wave_view(&self, prepared: &Prepared, view: &View, tile: Tile, targets: &WaveTargets) {
         let projected = Projected::new(&view.camera, view.size, prepared.bounds);
         // A smaller detection has the picture's depth beside it.
         let scale = gbuffer_scale(prepared, view);
         let scale = if scale.is_small() { 1 } else { scale.texels };
-        let values = waves::view_values(&prepared.waves, view, &projected, tile, grid, scale);
-        self.queue.write_buffer(&prepared.waves.view, 0, bytemuck::bytes_of(&values));
+        let has_surfaces = !prepared.draws.is_empty();
+        let data = &prepared.waves;
+        let values = waves::view_values(data, view, &projected, tile, scale, has_surfaces);
+        self.queue.write_buffer(&data.view, 0, bytemuck::bytes_of(&values));
+        let levels = targets.grid.levels(tile.origin, tile.size);
+        for (buffer, values) in targets.levels.iter().zip(&levels) {
+            self.queue.write_buffer(buffer, 0, bytemuck::bytes_of(values));
+        }
     }
 
     /// Runs the last step alone, with other contents than the frame's.
@@ -467,6 +475,7 @@ impl Renderer {
             lines: true,
             glow: true,
             beams: true,
+            energy: false,
             dithered: true,
             straight: false,
         };
@@ -490,7 +499,7 @@ impl Renderer {
                         &mut encoder,
                         prepared,
                         view,
-                        tile,
+                        (tile, output),
                         (&projected, &targets),
                         timer,
                     );

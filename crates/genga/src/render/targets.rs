@@ -1,5 +1,7 @@
 //! Every render target: its format, who writes it, who reads it.
 
+use super::wave_targets::WaveTargets;
+
 /// Colour of surfaces, premultiplied, in the blend space. Written by `paint`, read by `composite`.
 pub(crate) const PAINT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Reverse-Z depth of `paint` and of `gbuffer`; the latter is read by `detect` and `strokes`.
@@ -160,81 +162,6 @@ impl BeamTargets {
     }
 }
 
-/// What the waves alone need of a tile.
-pub(crate) struct WaveTargets {
-    pub(crate) energy: Target,
-    /// The nodes of each square of pixels.
-    pub(crate) lists: wgpu::Buffer,
-    /// The squares with a list, and those whose lists do not fit: see `waves_tiles`.
-    pub(crate) used_squares: wgpu::Buffer,
-    pub(crate) full_squares: wgpu::Buffer,
-    pub(crate) grid: ListGrid,
-}
-
-/// How the pixels are shared out among lists.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ListGrid {
-    /// Pixels of a square along a side.
-    pub(crate) square: u32,
-    /// Squares in a row and in a column: one more than the tile needs, which may begin anywhere.
-    pub(crate) squares: [u32; 2],
-    /// Entries per list.
-    pub(crate) capacity: u32,
-}
-
-impl ListGrid {
-    fn new(pixels: [u32; 2]) -> Self {
-        // As much as 64 MiB hold: long lists are rare, but walking the trees instead is slow.
-        const WORDS: u32 = 16 << 20;
-        let grid = |square: u32| {
-            let squares = pixels.map(|n| n.div_ceil(square) + 1);
-            let words = WORDS / (squares[0] * squares[1]);
-            Self { square, squares, capacity: words.saturating_sub(1).clamp(96, 1024) }
-        };
-        let small = grid(8);
-        if small.bytes() <= u64::from(WORDS) * 4 { small } else { grid(16) }
-    }
-
-    /// Squares in all.
-    pub(crate) fn count(self) -> u32 {
-        self.squares[0] * self.squares[1]
-    }
-
-    fn bytes(self) -> u64 {
-        u64::from(self.count()) * u64::from(self.capacity + 1) * 4
-    }
-}
-
-impl WaveTargets {
-    fn new(device: &wgpu::Device, pixels: [u32; 2]) -> Self {
-        use wgpu::TextureUsages as Usage;
-        let grid = ListGrid::new(pixels);
-        let usage = Usage::STORAGE_BINDING | Usage::COPY_SRC | Usage::RENDER_ATTACHMENT;
-        let squares = |label| {
-            device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size: 16 + 4 * u64::from(grid.count()),
-                usage: wgpu::BufferUsages::STORAGE
-                    | wgpu::BufferUsages::INDIRECT
-                    | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
-        Self {
-            energy: target(device, "energy", pixels, 1, ENERGY_FORMAT, usage),
-            lists: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("wave lists"),
-                size: grid.bytes(),
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            }),
-            used_squares: squares("used wave lists"),
-            full_squares: squares("full wave lists"),
-            grid,
-        }
-    }
-}
-
 /// The glow's layers, or one texel if there are none.
 fn glow_target(device: &wgpu::Device, size: TargetSize) -> Target {
     use wgpu::TextureUsages as Usage;
@@ -337,7 +264,8 @@ impl Targets {
             // A quarter of all texels is far more than pictures have.
             seam_texels: stored("seam texels", 4 * (texels / 4 + 64)),
             glow: glow_target(device, size),
-            waves: (size.glow_layers > 0).then(|| WaveTargets::new(device, size.pixels)),
+            waves: (size.glow_layers > 0)
+                .then(|| WaveTargets::new(device, size.pixels, size.glow_layers)),
             beams: BeamTargets::new(device, size),
         }
     }

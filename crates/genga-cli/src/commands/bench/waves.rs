@@ -20,6 +20,9 @@ const ENOUGH_MS: f64 = 2000.0;
 const ERROR_SIDE: u32 = 512;
 /// Metres from the curve within which it glows.
 const RADIUS: f32 = 0.5;
+/// Metres. Otherwise the core is the thinnest that the model has, half a pixel: nearest to the
+/// paper's density, which has none.
+const WIDE_CORE: f32 = 0.02;
 
 /// Times of the waves' passes alone.
 #[derive(Debug, Serialize)]
@@ -43,6 +46,8 @@ struct Row {
     /// The largest error relative to the energy (at least 1/255 of the brightest), against the exact
     /// method at its finest tolerance, at 512 × 512.
     max_error: Option<f64>,
+    /// What 99 of 100 pixels have at most.
+    p99_error: Option<f64>,
 }
 
 /// Measures everything. `size` leaves only pictures of that size.
@@ -66,6 +71,9 @@ pub(super) fn measure(
                 methods.extend([simpson(500, 2), simpson(500, 4)]);
             }
             bench.compare(name, &wave, size, &methods)?;
+            // Wide enough for the reference to resolve.
+            let wide = [Wave { core: WIDE_CORE, ..wave[0].clone() }];
+            bench.compare(&format!("{name}, core 2 cm"), &wide, size, &[simpson(500, 1)])?;
         }
     }
     for count in [1, 10, 100] {
@@ -115,7 +123,7 @@ fn curves() -> [(&'static str, WaveShape); 4] {
 }
 
 fn wave(shape: WaveShape) -> Wave {
-    Wave { shape, radius: Some(RADIUS), reach: 12.0, ..Wave::default() }
+    Wave { shape, core: 0.0, radius: Some(RADIUS), reach: 12.0, ..Wave::default() }
 }
 
 /// Helices that fan out.
@@ -177,10 +185,10 @@ impl Bench<'_> {
         };
         let mut exact_ms = 0.0;
         for &method in [WaveMethod::Exact].iter().chain(methods) {
-            let max_error = match &wanted {
+            let errors = match &wanted {
                 Some(wanted) => {
                     let got = self.energies(&mut prepared, waves, method, &pose, size)?;
-                    Some(largest_error(&got, wanted))
+                    Some(errors(&got, wanted))
                 }
                 None => None,
             };
@@ -205,7 +213,8 @@ impl Bench<'_> {
                 runs,
                 median_ms,
                 ratio: if exact_ms > 0.0 { median_ms / exact_ms } else { 0.0 },
-                max_error,
+                max_error: errors.map(|e| e[0]),
+                p99_error: errors.map(|e| e[1]),
             });
         }
         Ok(())
@@ -252,17 +261,23 @@ impl Bench<'_> {
     }
 }
 
-fn largest_error(got: &[f32], wanted: &[f32]) -> f64 {
+/// The largest relative error, and what 99 of 100 pixels that glow have at most.
+fn errors(got: &[f32], wanted: &[f32]) -> [f64; 2] {
     let floor = wanted.iter().copied().fold(0.0, f32::max) / 255.0;
-    let errors = got.iter().zip(wanted).map(|(a, b)| f64::from((a - b).abs() / b.max(floor)));
-    errors.fold(0.0, f64::max)
+    let glowing = got.iter().zip(wanted).filter(|(_, wanted)| **wanted > 0.0);
+    let mut errors: Vec<f64> =
+        glowing.map(|(a, b)| f64::from((a - b).abs() / b.max(floor))).collect();
+    errors.sort_by(f64::total_cmp);
+    let at = |i: usize| errors.get(i).copied().unwrap_or_default();
+    [at(errors.len().saturating_sub(1)), at(errors.len() * 99 / 100)]
 }
 
 impl WaveReport {
     /// The report for people.
     pub(super) fn text(&self) -> String {
         let clock = if self.clock == "gpu" { "GPU time" } else { "wall time" };
-        let titles = ["waves", "size", "method", "runs", "median", "of exact", "largest error"];
+        let titles =
+            ["waves", "size", "method", "runs", "median", "of exact", "largest error", "99 %"];
         let mut rows = vec![titles.map(str::to_owned).to_vec()];
         for row in &self.rows {
             let count = if row.waves > 1 { format!("{} × ", row.waves) } else { String::new() };
@@ -273,9 +288,14 @@ impl WaveReport {
                 row.runs.to_string(),
                 format!("{:.2} ms", row.median_ms),
                 format!("{:.1}", row.ratio),
-                row.max_error.map_or_else(String::new, |e| format!("{:.3} %", 100.0 * e)),
+                percent(row.max_error),
+                percent(row.p99_error),
             ]);
         }
         format!("waves: their passes alone, {clock}\n{}", table(&rows))
     }
+}
+
+fn percent(error: Option<f64>) -> String {
+    error.map_or_else(String::new, |e| format!("{:.3} %", 100.0 * e))
 }

@@ -783,6 +783,7 @@ pub(crate) const LINE_OBJECT: u32 = 4u32;
 pub(crate) const LINE_SILHOUETTE: u32 = 1u32;
 pub(crate) const LINE_USER: u32 = 32u32;
 pub(crate) const LINE_UV_SEAM: u32 = 64u32;
+pub(crate) const LIST_HEAD: u32 = 4u32;
 pub(crate) const LOOK_BASE_FIXED: u32 = 4u32;
 pub(crate) const LOOK_BASE_NONE: u32 = 8u32;
 pub(crate) const LOOK_RAMP_IMAGE: u32 = 2u32;
@@ -1179,6 +1180,8 @@ pub(crate) const METHOD_IMAGE: u32 = 5u32;
 pub(crate) const METHOD_NONE: u32 = 0u32;
 pub(crate) const METHOD_REFERENCE: u32 = 2u32;
 pub(crate) const METHOD_RIM: u32 = 4u32;
+pub(crate) const PATCH_NODES: u32 = 16u32;
+pub(crate) const PATCH_RAYS: u32 = 24u32;
 pub(crate) const PIECE_CLOSED: u32 = 1024u32;
 pub(crate) const PIECE_COVERED_A: u32 = 256u32;
 pub(crate) const PIECE_COVERED_B: u32 = 512u32;
@@ -1810,6 +1813,7 @@ pub(crate) const WAVE_EVEN: u32 = 4u32;
 pub(crate) const WAVE_OCCLUDED: u32 = 2u32;
 pub(crate) const WAVE_USED: u32 = 8u32;
 pub(crate) const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u32;
+pub(crate) const WAVE_VIEW_SURFACES: u32 = 2u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Wave {
@@ -2032,6 +2036,48 @@ const _: () = assert!(
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct WaveLevel {
+    pub(crate) side: u32,
+    pub(crate) scale: u32,
+    pub(crate) across: u32,
+    pub(crate) down: u32,
+    pub(crate) finest: glam::UVec2,
+    pub(crate) stride: u32,
+    pub(crate) patch_first: u32,
+}
+const _: () = assert!(
+    std::mem::size_of::< WaveLevel > () == 32, "size of WaveLevel does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, side) == 0,
+    "offset of WaveLevel.side does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, scale) == 4,
+    "offset of WaveLevel.scale does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, across) == 8,
+    "offset of WaveLevel.across does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, down) == 12,
+    "offset of WaveLevel.down does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, finest) == 16,
+    "offset of WaveLevel.finest does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, stride) == 24,
+    "offset of WaveLevel.stride does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(WaveLevel, patch_first) == 28,
+    "offset of WaveLevel.patch_first does not match WGSL"
+);
+#[repr(C)]
+#[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct WaveNode {
     pub(crate) x: glam::Vec4,
     pub(crate) y: glam::Vec4,
@@ -2065,22 +2111,14 @@ pub(crate) struct WaveView {
     pub(crate) tile_size: glam::UVec2,
     pub(crate) depth_range: glam::Vec2,
     pub(crate) pixel_footprint: f32,
-    pub(crate) reserved_2: u32,
-    pub(crate) square: u32,
-    pub(crate) squares_across: u32,
-    pub(crate) square_count: u32,
-    pub(crate) capacity: u32,
-    pub(crate) reserved_3: u32,
-    pub(crate) reserved_4: u32,
+    pub(crate) layers: u32,
     pub(crate) gbuffer_scale: u32,
     pub(crate) flags: u32,
     pub(crate) reference_points: u32,
     pub(crate) reference_thinning: u32,
-    pub(crate) reserved_0: u32,
-    pub(crate) reserved_1: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< WaveView > () == 144, "size of WaveView does not match WGSL"
+    std::mem::size_of::< WaveView > () == 112, "size of WaveView does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(WaveView, origin) == 0,
@@ -2115,56 +2153,24 @@ const _: () = assert!(
     "offset of WaveView.pixel_footprint does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, reserved_2) == 92,
-    "offset of WaveView.reserved_2 does not match WGSL"
+    std::mem::offset_of!(WaveView, layers) == 92,
+    "offset of WaveView.layers does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, square) == 96,
-    "offset of WaveView.square does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, squares_across) == 100,
-    "offset of WaveView.squares_across does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, square_count) == 104,
-    "offset of WaveView.square_count does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, capacity) == 108,
-    "offset of WaveView.capacity does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, reserved_3) == 112,
-    "offset of WaveView.reserved_3 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, reserved_4) == 116,
-    "offset of WaveView.reserved_4 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, gbuffer_scale) == 120,
+    std::mem::offset_of!(WaveView, gbuffer_scale) == 96,
     "offset of WaveView.gbuffer_scale does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, flags) == 124,
+    std::mem::offset_of!(WaveView, flags) == 100,
     "offset of WaveView.flags does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, reference_points) == 128,
+    std::mem::offset_of!(WaveView, reference_points) == 104,
     "offset of WaveView.reference_points does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(WaveView, reference_thinning) == 132,
+    std::mem::offset_of!(WaveView, reference_thinning) == 108,
     "offset of WaveView.reference_thinning does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, reserved_0) == 136,
-    "offset of WaveView.reserved_0 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(WaveView, reserved_1) == 140,
-    "offset of WaveView.reserved_1 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

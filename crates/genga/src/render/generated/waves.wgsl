@@ -13,19 +13,30 @@ var<storage, read> wave_data: array<f32>;
 var<storage, read> nodes: array<WaveNode>;
 
 @group(1) @binding(0)
-var<storage, read> lists: array<u32>;
+var<uniform> level: WaveLevel;
 
 @group(1) @binding(1)
-var depth: texture_2d<f32>;
+var<storage, read> depths: array<vec2f>;
 
 @group(1) @binding(2)
-var glow: texture_storage_2d_array<rgba16float, write>;
+var<storage, read> lists: array<u32>;
 
 @group(1) @binding(3)
-var energy_target: texture_storage_2d<r32float, write>;
+var<storage, read> squares: array<u32>;
 
 @group(1) @binding(4)
-var<storage, read> squares: array<u32>;
+var depth: texture_2d<f32>;
+
+@group(1) @binding(5)
+var glow: texture_storage_2d_array<rgba16float, write>;
+
+@group(1) @binding(6)
+var energy_target: texture_storage_2d<r32float, write>;
+
+@group(1) @binding(7)
+var<storage, read_write> patches: array<vec4f>;
+
+const LIST_HEAD: u32 = 4u;
 
 const MANY_CUTS: f32 = 5.0;
 
@@ -33,11 +44,17 @@ const MAX_CUTS: f32 = 32.0;
 
 const MAX_WAVES: u32 = 240u;
 
+const MISSED: Fit = Fit(NODE_MISSED, false);
+
 const NODE_FITS: u32 = 1u;
 
 const NODE_MISSED: u32 = 0u;
 
 const NODE_TOO_COARSE: u32 = 2u;
+
+const PATCH_RAYS: u32 = 24u;
+
+const ROUGH: f32 = 0.15;
 
 const WAVE_ENDS: u32 = 1u;
 
@@ -47,6 +64,13 @@ const WAVE_USED: u32 = 8u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
+const WAVE_VIEW_SURFACES: u32 = 2u;
+
+struct Fit {
+    fit: u32,
+    is_rough: bool
+}
+
 struct RayWave {
     ends: vec2f,
     radius: f32,
@@ -55,6 +79,13 @@ struct RayWave {
     tolerance: f32,
     reach: f32,
     fading: f32
+}
+
+struct Rays {
+    first: ViewRay,
+    second: ViewRay,
+    surfaces: vec2f,
+    places: vec4u
 }
 
 struct SquareRay {
@@ -118,6 +149,16 @@ struct WaveCurve {
     reserved_0: u32
 }
 
+struct WaveLevel {
+    side: u32,
+    scale: u32,
+    across: u32,
+    down: u32,
+    finest: vec2u,
+    stride: u32,
+    patch_first: u32
+}
+
 struct WaveNode {
     x: vec4f,
     y: vec4f,
@@ -142,64 +183,61 @@ struct WaveView {
     tile_size: vec2u,
     depth_range: vec2f,
     pixel_footprint: f32,
-    reserved_2: u32,
-    square: u32,
-    squares_across: u32,
-    square_count: u32,
-    capacity: u32,
-    reserved_3: u32,
-    reserved_4: u32,
+    layers: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
-    reference_thinning: u32,
-    reserved_0: u32,
-    reserved_1: u32
+    reference_thinning: u32
 }
 
-fn add_energy(wave: u32, energy: f32) {
-    layer_glow += energy_color(wave, energy);
-    total += energy;
+fn add_energies(wave: u32, energies: vec2f) {
+    first_glow += energy_color(wave, energies.x).rgb;
+    second_glow += energy_color(wave, energies.y).rgb;
+    totals += energies;
 }
 
-fn collect_square(square: u32, quarter: u32, local_id: vec2u) {
-    let whole = pixel_of(square, quarter, local_id);
-    let pixel = whole - view.tile_origin;
-    if (any(whole < view.tile_origin) || any(pixel >= view.tile_size)) {
-        return;
-    }
-    let first = square * (view.capacity + 1u);
-    let left = lists[first];
-    let ray = view_ray(vec2f(whole) + 0.5);
-    let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0).x);
+fn begin_layers() {
     layer = 0u;
-    layer_glow = vec4f(0.0);
-    total = 0.0;
-    var at = first + 1u;
-    let last = first + left;
-    while ((at <= last)) {
+    first_glow = vec3f(0.0);
+    second_glow = vec3f(0.0);
+    totals = vec2f(0.0);
+}
+
+fn check_place(ray: u32) -> vec2f {
+    let i = ray - 16u;
+    let at = select(i, i + 1u, i >= 4u);
+    return 0.78 * (vec2f(vec2u(at % 3u, at / 3u)) - 1.0);
+}
+
+fn collect_list(square: u32, rays: Rays) {
+    let first = square * level.stride;
+    let left = lists[first];
+    begin_layers();
+    var at = first + LIST_HEAD;
+    let last = at + left;
+    while ((at < last)) {
         let header = lists[at];
         let wave = header & 255u;
         var ends = (header >> 8u) & 15u;
         let nodes_end = at + (header >> 12u);
-        finish_layers(pixel, waves[wave].layer);
-        let local = wave_ray(wave, ray, far_end(wave, surface), vec2f(0.0));
+        finish_layers(rays.places, waves[wave].layer);
+        let a = wave_ray(wave, rays.first, far_end(wave, rays.surfaces.x), vec2f(0.0));
+        let b = wave_ray(wave, rays.second, far_end(wave, rays.surfaces.y), vec2f(0.0));
         let numbers = ray_wave(wave);
-        var energy = 0.0;
+        var energies = vec2f(0.0);
         while ((at < nodes_end)) {
             at += 1u;
-            energy += node_energy(lists[at], numbers, local);
+            energies += node_energies(lists[at], numbers, a, b);
         }
         while ((ends != 0u)) {
             let end = firstTrailingBit(ends);
             ends &= ends - 1u;
-            energy += end_energy(end, end_place(end, wave), numbers, local);
+            let place = end_place(end, wave);
+            energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
         }
-        add_energy(wave, energy);
+        add_energies(wave, energies);
         at += 1u;
     }
-    textureStore(glow, pixel, layer, layer_glow);
-    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
@@ -256,26 +294,35 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
     return energy;
 }
 
-fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {
+fn end_fits(end: u32, place: vec4f, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> Fit {
     if (place.w <= 0.0) {
-        return false;
+        return MISSED;
     }
     let start = ray.origin - place.xyz;
     let nearest = clamp(-dot(start, ray.direction), ray.low, ray.high);
     let wide = spread.x + spread.y * max(ray.middle + nearest, 0.0);
-    if (radius <= 0.0) {
-        return true;
-    }
-    let reach = radius + wide + spread.y * radius;
-    let away = start + nearest * ray.direction;
-    if (dot(away, away) > reach * reach) {
-        return false;
+    let off = start + nearest * ray.direction;
+    let away2 = dot(off, off);
+    var t = vec2f(ray.low, ray.high);
+    if (wave.radius > 0.0) {
+        let reach = wave.radius + wide + spread.y * wave.radius;
+        if (away2 > reach * reach) {
+            return MISSED;
+        }
+        let half = sqrt(max(reach * reach - away2, 0.0));
+        t = vec2f(max(nearest - half, t.x), min(nearest + half, t.y));
     }
     let sides = end_range(end, place.xyz);
-    let half = sqrt(max(reach * reach - dot(away, away), 0.0));
-    let t = vec2f(max(nearest - half, ray.low), min(nearest + half, ray.high));
     let xs = ray.origin.x + t * ray.direction.x;
-    return max(xs.x, xs.y) + wide >= sides.x && min(xs.x, xs.y) - wide <= sides.y;
+    let room = spread.x + spread.y * max(ray.middle + t, vec2f(0.0));
+    let most = max(xs.x + room.x, xs.y + room.y);
+    if (most < sides.x || min(xs.x - room.x, xs.y - room.y) > sides.y) {
+        return MISSED;
+    }
+    let free = max(sqrt(away2) - wide, 0.0);
+    let core = core_at(wave, ray.middle + nearest);
+    let is_near = sqrt(free * free + core * core) < ROUGH * wide;
+    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y);
 }
 
 fn end_place(end: u32, wave: u32) -> vec4f {
@@ -317,6 +364,11 @@ fn energy_color(wave: u32, energy: f32) -> vec4f {
     return min(low * (positive / low_energy), vec4f(60000.0));
 }
 
+fn extremum(i: u32) -> f32 {
+    let inner = select(-0.5, 0.5, i == 2u);
+    return select(inner, select(-1.0, 1.0, i == 3u), i == 0u || i == 3u);
+}
+
 fn fading(wave: RayWave, start: f32, end: f32) -> vec2f {
     let j = wave.fading;
     if (j == 0.0) {
@@ -351,11 +403,27 @@ fn far_end(wave: u32, surface: f32) -> f32 {
     return select(1e30, surface, (waves[wave].flags & WAVE_OCCLUDED) != 0u);
 }
 
-fn finish_layers(pixel: vec2u, next: u32) {
+fn finish_layers(places: vec4u, next: u32) {
     while ((layer < next)) {
-        textureStore(glow, pixel, layer, layer_glow);
-        layer_glow = vec4f(0.0);
+        if (samples) {
+            patches[places.x + layer * PATCH_RAYS] = vec4f(first_glow, totals.x);
+            patches[places.z + layer * PATCH_RAYS] = vec4f(second_glow, totals.y);
+        }
+        else {
+            textureStore(glow, places.xy, layer, vec4f(first_glow, 0.0));
+            textureStore(glow, places.zw, layer, vec4f(second_glow, 0.0));
+        }
+        first_glow = vec3f(0.0);
+        second_glow = vec3f(0.0);
         layer += 1u;
+    }
+}
+
+fn finish_pixels(pixels: vec4u) {
+    finish_layers(pixels, layer + 1u);
+    if (keeps_energy) {
+        textureStore(energy_target, pixels.xy, vec4f(totals.x, 0.0, 0.0, 0.0));
+        textureStore(energy_target, pixels.zw, vec4f(totals.y, 0.0, 0.0, 0.0));
     }
 }
 
@@ -364,16 +432,20 @@ fn next_node(node: u32) -> u32 {
     return next >> firstTrailingBit(next);
 }
 
-fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
+fn node_energies(node: u32, wave: RayWave, first: WaveRay, second: WaveRay) -> vec2f {
     let nx = nodes[node].x;
+    let ny = nodes[node].y;
+    let nz = nodes[node].z;
+    return vec2f(node_energy(nx, ny, nz, wave, first), node_energy(nx, ny, nz, wave, second));
+}
+
+fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
     let x0 = max(nx.x - nx.y, wave.ends.x);
     let x1 = min(nx.x + nx.y, wave.ends.y);
     var range = slab(ray, x0, x1);
     if (x0 >= x1 || range.x >= range.y) {
         return 0.0;
     }
-    let ny = nodes[node].y;
-    let nz = nodes[node].z;
     let inverse = 1.0 / nx.y;
     let radius = wave.radius;
     let bend = length(vec2f(ny.z, nz.z));
@@ -437,12 +509,12 @@ fn node_energy(node: u32, wave: RayWave, ray: WaveRay) -> f32 {
     return energy;
 }
 
-fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> Fit {
     let nx = nodes[node].x;
     let x0 = max(nx.x - nx.y, wave.ends.x);
     let x1 = min(nx.x + nx.y, wave.ends.y);
     if (x0 >= x1) {
-        return NODE_MISSED;
+        return MISSED;
     }
     let ny = nodes[node].y;
     let nz = nodes[node].z;
@@ -460,10 +532,10 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     low = max(low, select(-1e30, at_limit.x, slopes.x < -1e-12));
     low = max(low, select(-1e30, at_limit.y, slopes.y < -1e-12));
     if (any((abs(slopes) <= vec2f(1e-12)) & (limits < vec2f(0.0)))) {
-        return NODE_MISSED;
+        return MISSED;
     }
     if (low >= high) {
-        return NODE_MISSED;
+        return MISSED;
     }
     let slope = vec2f(ny.y, nz.y) * inverse;
     let middle = vec2f(ny.x + ny.z / 3.0, nz.x + nz.z / 3.0);
@@ -482,13 +554,13 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
         let d = q1 * q1 - q2 * q0;
         if (q2 > 1e-12) {
             if (d <= 0.0) {
-                return NODE_MISSED;
+                return MISSED;
             }
             let root = sqrt(d);
             low = max(low, (-q1 - root) / q2);
             high = min(high, (-q1 + root) / q2);
             if (low >= high) {
-                return NODE_MISSED;
+                return MISSED;
             }
         }
     }
@@ -505,9 +577,21 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let strict = select(1.0, 0.05, surface - ray.middle < high);
+    let is_cut = surface - ray.middle < high;
+    let strict = select(1.0, 0.05, is_cut);
     let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
-    return select(NODE_TOO_COARSE, NODE_FITS, fits);
+    let is_rough = is_cut || d < ROUGH * (base + spread.y * nearest);
+    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough);
+}
+
+fn node_place(ray: u32) -> vec2f {
+    return vec2f(extremum(ray & 3u), extremum((ray >> 2u) & 3u));
+}
+
+fn patch_ray(square: u32, ray: u32) -> ViewRay {
+    let place = select(node_place(ray), check_place(ray), ray >= 16u);
+    let corner = square_corner(square, level.across, level.side);
+    return view_ray(vec2f(corner) + f32(level.side) * (0.5 + 0.5 * place));
 }
 
 fn piece_energy(a: vec3f, b: vec3f, weights: vec2f, length: f32, core2: f32, rim: f32) -> f32 {
@@ -532,17 +616,25 @@ fn piece_energy(a: vec3f, b: vec3f, weights: vec2f, length: f32, core2: f32, rim
     return length * (2.0 / sum * (g * mean - tilt * h) - mean * rim);
 }
 
-fn pixel_of(square: u32, quarter: u32, local_id: vec2u) -> vec2u {
-    let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let corner = (view.tile_origin / view.square + place) * view.square;
-    return corner + vec2u(quarter & 1u, quarter >> 1u) * 8u + local_id;
+fn pixel_rays(square: u32, block: u32, local_id: vec2u) -> Rays {
+    let across = level.side / 8u;
+    let corner = square_corner(square, level.across, level.side);
+    let first = corner + vec2u(block % across, block / across) * 8u + local_id;
+    let second = first + vec2u(0u, 4u);
+    let pixels = vec4u(first - view.tile_origin, second - view.tile_origin);
+    let ray = view_ray(vec2f(first) + 0.5);
+    let other = view_ray(vec2f(second) + 0.5);
+    let last = vec4u(view.tile_size, view.tile_size) - 1u;
+    let texels = min(pixels, last) * view.gbuffer_scale;
+    let surfaces = vec2f(ray_distance(ray, textureLoad(depth, texels.xy, 0).x), ray_distance(other, textureLoad(depth, texels.zw, 0).x));
+    return Rays(ray, other, surfaces, pixels);
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
-    }
-    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let linear = mix(view.depth_range.y, view.depth_range.x, depth);
+    let projected = view.depth_range.x / max(depth, 1e-30) * ray.slant;
+    return select(select(projected, linear, is_orthographic), 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -561,92 +653,91 @@ fn slab(ray: WaveRay, x0: f32, x1: f32) -> vec2f {
     return vec2f(max(min(a, b), ray.low), min(max(a, b), ray.high));
 }
 
-fn square_ray(square: vec2u) -> SquareRay {
-    let low = vec2f(square * view.square);
-    let side = f32(view.square);
-    let ray = view_ray(low + 0.5 * side);
-    var spread = vec2f(0.0);
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        spread.x = 0.7072 * side * view.pixel_footprint;
-    }
-    else {
-        for (var i = 0u; i < 4u; i++) {
-            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
-            spread.y = max(spread.y, length(at.direction - ray.direction));
-        }
-    }
-    return SquareRay(ray, spread);
+fn square_corner(square: u32, across: u32, side: u32) -> vec2u {
+    return (view.tile_origin / side + vec2u(square % across, square / across)) * side;
 }
 
-fn square_surface(square: vec2u, ray: ViewRay, depth: texture_2d<f32>) -> f32 {
-    var nearest = 0.0;
-    let low = vec2i(square * view.square) - vec2i(view.tile_origin);
-    let last = vec2i(view.tile_size) - 1;
-    for (var i = 0; i < 16; i++) {
-        let offset = vec2i(i & 3, i >> 2) * i32(view.square - 1u) / 3;
-        let pixel = clamp(low + offset, vec2i(0), last);
-        nearest = max(nearest, textureLoad(depth, pixel * i32(view.gbuffer_scale), 0).x);
+fn square_ray(corner: vec2u, pixels: u32) -> SquareRay {
+    let low = vec2f(corner);
+    let side = f32(pixels);
+    let ray = view_ray(low + 0.5 * side);
+    var turn = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
+        turn = max(turn, length(at.direction - ray.direction));
     }
-    return ray_distance(ray, nearest);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let shift = 0.7072 * side * view.pixel_footprint;
+    return SquareRay(ray, select(vec2f(0.0, turn), vec2f(shift, 0.0), is_orthographic));
+}
+
+fn square_surfaces(corner: vec2u, middle: SquareRay) -> vec2f {
+    let side = level.side / level.scale;
+    let first = vec2i(corner / side) - vec2i(view.tile_origin / side);
+    let last = vec2i(level.finest) - 1;
+    var range = vec2f(0.0, 1.0);
+    for (var i = 0; i < 16; i++) {
+        let at = first + vec2i(i & 3, i >> 2) % i32(level.scale);
+        let inside = clamp(at, vec2i(0), last);
+        let found = depths[inside.y * i32(level.finest.x) + inside.x];
+        range = vec2f(max(range.x, found.x), min(range.y, found.y));
+    }
+    let near = ray_distance(middle.ray, range.x);
+    let far = ray_distance(middle.ray, range.y);
+    let slack = middle.spread.y * (middle.ray.slant + 1.0);
+    let seen = vec2f(near * (1.0 - slack), far * (1.0 + slack));
+    return select(vec2f(1e30), seen, (view.flags & WAVE_VIEW_SURFACES) != 0u);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return ViewRay(view.origin.xyz + moved, view.corner.xyz, 1.0);
-    }
-    let direction = view.corner.xyz + moved;
-    let slant = length(direction);
-    return ViewRay(view.origin.xyz, direction / slant, slant);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let turned = view.corner.xyz + select(moved, vec3f(0.0), is_orthographic);
+    let shifted = view.origin.xyz + select(vec3f(0.0), moved, is_orthographic);
+    let slant = select(length(turned), 1.0, is_orthographic);
+    return ViewRay(shifted, turned / slant, slant);
 }
 
-fn walk_square(square: u32, quarter: u32, local_id: vec2u) {
-    let whole = pixel_of(square, quarter, local_id);
-    let pixel = whole - view.tile_origin;
-    if (any(whole < view.tile_origin) || any(pixel >= view.tile_size)) {
-        return;
-    }
-    let ray = view_ray(vec2f(whole) + 0.5);
-    let surface = ray_distance(ray, textureLoad(depth, pixel * view.gbuffer_scale, 0).x);
-    let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let corner = view.tile_origin / view.square + place;
-    let middle = square_ray(corner);
-    let near_surface = square_surface(corner, middle.ray, depth);
-    layer = 0u;
-    layer_glow = vec4f(0.0);
-    total = 0.0;
+fn walk_square(square: u32, rays: Rays) {
+    let corner = square_corner(square, level.across, level.side);
+    let middle = square_ray(corner, level.side);
+    let surfaces = square_surfaces(corner, middle);
+    begin_layers();
     for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
-        let of_square = wave_ray(wave, middle.ray, 1e30, middle.spread);
+        let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
+        let seen = select(vec2f(1e30), surfaces, is_occluded);
+        let of_square = wave_ray(wave, middle.ray, seen.y, middle.spread);
         if (of_square.low >= of_square.high) {
             continue;
         }
-        finish_layers(pixel, waves[wave].layer);
-        let local = wave_ray(wave, ray, far_end(wave, surface), vec2f(0.0));
+        finish_layers(rays.places, waves[wave].layer);
+        let a = wave_ray(wave, rays.first, far_end(wave, rays.surfaces.x), vec2f(0.0));
+        let b = wave_ray(wave, rays.second, far_end(wave, rays.surfaces.y), vec2f(0.0));
         let numbers = ray_wave(wave);
         let leaves = waves[wave].leaves;
         let root = waves[wave].node_first;
-        var energy = 0.0;
+        var energies = vec2f(0.0);
         var node = select(0u, 1u, leaves > 0u);
         while ((node != 0u)) {
-            let fit = node_fits(root + node, numbers, of_square, middle.spread, near_surface);
-            let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
+            let found = node_fits(root + node, numbers, of_square, middle.spread, seen.x);
+            let is_missed = found.fit == NODE_MISSED;
+            let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
             if (is_used) {
-                energy += node_energy(root + node, numbers, local);
+                energies += node_energies(root + node, numbers, a, b);
             }
-            node = select(2u * node, next_node(node), is_used || fit == NODE_MISSED);
+            node = select(2u * node, next_node(node), is_used || is_missed);
             node = select(node, 0u, node == 1u);
         }
         let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
         for (var end = first_end; end < 4u; end++) {
-            let at = end_place(end, wave);
-            if (end_is_near(end, at, numbers.radius, of_square, middle.spread)) {
-                energy += end_energy(end, at, numbers, local);
+            let place = end_place(end, wave);
+            let found = end_fits(end, place, numbers, of_square, middle.spread, seen.x);
+            if (found.fit != NODE_MISSED) {
+                energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
             }
         }
-        add_energy(wave, energy);
+        add_energies(wave, energies);
     }
-    textureStore(glow, pixel, layer, layer_glow);
-    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
@@ -681,17 +772,36 @@ fn within_radius(start: vec3f, change: vec3f, radius: f32) -> vec2f {
     return select(vec2f(1.0, 0.0), vec2f(max(nearest - half, 0.0), min(nearest + half, 1.0)), free > 0.0);
 }
 
-@compute @workgroup_size(8, 8)
-fn collect_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
-    for (var i = group.x; i < squares[3]; i += 65535u) {
-        collect_square(squares[4u + i], group.y, local_id.xy);
+@compute @workgroup_size(64)
+fn sample_patches(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    const PAIRS: u32 = PATCH_RAYS / 2u;
+    for (var i = id.x; i < PAIRS * squares[3]; i += groups.x * 64u) {
+        let square = squares[4u + i / PAIRS];
+        let ray = i % PAIRS;
+        let first = (level.patch_first + square) * view.layers * PATCH_RAYS + ray;
+        let rays = Rays(patch_ray(square, ray), patch_ray(square, ray + PAIRS), vec2f(1e30), vec4u(first, 0u, first + PAIRS, 0u));
+        collect_list(square, rays);
+        finish_layers(rays.places, lists[square * level.stride + 3u]);
     }
 }
 
-@compute @workgroup_size(8, 8)
+@compute @workgroup_size(8, 4)
+fn collect_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
+    for (var i = group.x; i < squares[3]; i += 65535u) {
+        let square = squares[4u + i];
+        let rays = pixel_rays(square, group.y, local_id.xy);
+        collect_list(square, rays);
+        finish_pixels(rays.places);
+    }
+}
+
+@compute @workgroup_size(8, 4)
 fn collect_full(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
     for (var i = group.x; i < squares[3]; i += 65535u) {
-        walk_square(squares[4u + i], group.y, local_id.xy);
+        let square = squares[4u + i];
+        let rays = pixel_rays(square, group.y, local_id.xy);
+        walk_square(square, rays);
+        finish_pixels(rays.places);
     }
 }
 
@@ -699,8 +809,14 @@ override core_grows: bool = true;
 
 override fades: bool = true;
 
+override keeps_energy: bool = true;
+
+override samples: bool = false;
+
+var<private> first_glow: vec3f;
+
 var<private> layer: u32;
 
-var<private> layer_glow: vec4f;
+var<private> second_glow: vec3f;
 
-var<private> total: f32;
+var<private> totals: vec2f;

@@ -9,13 +9,13 @@ var<uniform> waves: array<Wave, 240>;
 @group(0) @binding(2)
 var<storage, read> wave_data: array<f32>;
 
-@group(1) @binding(1)
+@group(1) @binding(4)
 var depth: texture_2d<f32>;
 
-@group(1) @binding(2)
+@group(1) @binding(5)
 var glow: texture_storage_2d_array<rgba16float, write>;
 
-@group(1) @binding(3)
+@group(1) @binding(6)
 var energy_target: texture_storage_2d<r32float, write>;
 
 const CURVE_BEZIER: u32 = 3u;
@@ -133,19 +133,11 @@ struct WaveView {
     tile_size: vec2u,
     depth_range: vec2f,
     pixel_footprint: f32,
-    reserved_2: u32,
-    square: u32,
-    squares_across: u32,
-    square_count: u32,
-    capacity: u32,
-    reserved_3: u32,
-    reserved_4: u32,
+    layers: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
-    reference_thinning: u32,
-    reserved_0: u32,
-    reserved_1: u32
+    reference_thinning: u32
 }
 
 fn alpha_at(wave: u32, s: f32) -> f32 {
@@ -404,10 +396,10 @@ fn point_at(first: u32, index: u32) -> vec3f {
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
-    }
-    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let linear = mix(view.depth_range.y, view.depth_range.x, depth);
+    let projected = view.depth_range.x / max(depth, 1e-30) * ray.slant;
+    return select(select(projected, linear, is_orthographic), 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -564,12 +556,11 @@ fn trig_sum(first: u32, count: u32, angle: f32) -> f32 {
 
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return ViewRay(view.origin.xyz + moved, view.corner.xyz, 1.0);
-    }
-    let direction = view.corner.xyz + moved;
-    let slant = length(direction);
-    return ViewRay(view.origin.xyz, direction / slant, slant);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let turned = view.corner.xyz + select(moved, vec3f(0.0), is_orthographic);
+    let shifted = view.origin.xyz + select(vec3f(0.0), moved, is_orthographic);
+    let slant = select(length(turned), 1.0, is_orthographic);
+    return ViewRay(shifted, turned / slant, slant);
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
@@ -616,7 +607,9 @@ fn collect_reference(@builtin(global_invocation_id) id: vec3u) {
         total += energy;
     }
     textureStore(glow, pixel, layer, layer_glow);
-    textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
+    if (keeps_energy) {
+        textureStore(energy_target, pixel, vec4f(total, 0.0, 0.0, 0.0));
+    }
 }
 
 override curve_kind: u32 = 255u;
@@ -624,6 +617,8 @@ override curve_kind: u32 = 255u;
 override has_more: bool = true;
 
 override is_even: bool = false;
+
+override keeps_energy: bool = true;
 
 override order: u32 = 0u;
 

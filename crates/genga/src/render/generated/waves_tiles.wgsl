@@ -10,20 +10,30 @@ var<uniform> waves: array<Wave, 240>;
 var<storage, read> nodes: array<WaveNode>;
 
 @group(1) @binding(0)
-var<storage, read_write> lists: array<u32>;
+var<uniform> level: WaveLevel;
 
 @group(1) @binding(1)
-var<storage, read_write> used_squares: Squares;
+var<storage, read> depths: array<vec2f>;
 
 @group(1) @binding(2)
-var<storage, read_write> full_squares: Squares;
+var<storage, read_write> lists: array<u32>;
 
 @group(1) @binding(3)
-var depth: texture_2d<f32>;
+var<storage, read> parents: array<u32>;
+
+@group(1) @binding(4)
+var<storage, read_write> used_squares: Squares;
+
+@group(1) @binding(5)
+var<storage, read_write> left_squares: Squares;
+
+const LIST_HEAD: u32 = 4u;
 
 const MANY_CUTS: f32 = 5.0;
 
 const MAX_WAVES: u32 = 240u;
+
+const MISSED: Fit = Fit(NODE_MISSED, false);
 
 const NODE_FITS: u32 = 1u;
 
@@ -31,11 +41,24 @@ const NODE_MISSED: u32 = 0u;
 
 const NODE_TOO_COARSE: u32 = 2u;
 
+const PATCH_RAYS: u32 = 24u;
+
+const ROUGH: f32 = 0.15;
+
 const WAVE_ENDS: u32 = 1u;
+
+const WAVE_OCCLUDED: u32 = 2u;
 
 const WAVE_USED: u32 = 8u;
 
 const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
+
+const WAVE_VIEW_SURFACES: u32 = 2u;
+
+struct Fit {
+    fit: u32,
+    is_rough: bool
+}
 
 struct RayWave {
     ends: vec2f,
@@ -116,6 +139,16 @@ struct WaveCurve {
     reserved_0: u32
 }
 
+struct WaveLevel {
+    side: u32,
+    scale: u32,
+    across: u32,
+    down: u32,
+    finest: vec2u,
+    stride: u32,
+    patch_first: u32
+}
+
 struct WaveNode {
     x: vec4f,
     y: vec4f,
@@ -140,19 +173,11 @@ struct WaveView {
     tile_size: vec2u,
     depth_range: vec2f,
     pixel_footprint: f32,
-    reserved_2: u32,
-    square: u32,
-    squares_across: u32,
-    square_count: u32,
-    capacity: u32,
-    reserved_3: u32,
-    reserved_4: u32,
+    layers: u32,
     gbuffer_scale: u32,
     flags: u32,
     reference_points: u32,
-    reference_thinning: u32,
-    reserved_0: u32,
-    reserved_1: u32
+    reference_thinning: u32
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
@@ -164,26 +189,35 @@ fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
     return sqrt(6.0 * sag / (wave.tolerance * distance));
 }
 
-fn end_is_near(end: u32, place: vec4f, radius: f32, ray: WaveRay, spread: vec2f) -> bool {
+fn end_fits(end: u32, place: vec4f, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> Fit {
     if (place.w <= 0.0) {
-        return false;
+        return MISSED;
     }
     let start = ray.origin - place.xyz;
     let nearest = clamp(-dot(start, ray.direction), ray.low, ray.high);
     let wide = spread.x + spread.y * max(ray.middle + nearest, 0.0);
-    if (radius <= 0.0) {
-        return true;
-    }
-    let reach = radius + wide + spread.y * radius;
-    let away = start + nearest * ray.direction;
-    if (dot(away, away) > reach * reach) {
-        return false;
+    let off = start + nearest * ray.direction;
+    let away2 = dot(off, off);
+    var t = vec2f(ray.low, ray.high);
+    if (wave.radius > 0.0) {
+        let reach = wave.radius + wide + spread.y * wave.radius;
+        if (away2 > reach * reach) {
+            return MISSED;
+        }
+        let half = sqrt(max(reach * reach - away2, 0.0));
+        t = vec2f(max(nearest - half, t.x), min(nearest + half, t.y));
     }
     let sides = end_range(end, place.xyz);
-    let half = sqrt(max(reach * reach - dot(away, away), 0.0));
-    let t = vec2f(max(nearest - half, ray.low), min(nearest + half, ray.high));
     let xs = ray.origin.x + t * ray.direction.x;
-    return max(xs.x, xs.y) + wide >= sides.x && min(xs.x, xs.y) - wide <= sides.y;
+    let room = spread.x + spread.y * max(ray.middle + t, vec2f(0.0));
+    let most = max(xs.x + room.x, xs.y + room.y);
+    if (most < sides.x || min(xs.x - room.x, xs.y - room.y) > sides.y) {
+        return MISSED;
+    }
+    let free = max(sqrt(away2) - wide, 0.0);
+    let core = core_at(wave, ray.middle + nearest);
+    let is_near = sqrt(free * free + core * core) < ROUGH * wide;
+    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y);
 }
 
 fn end_place(end: u32, wave: u32) -> vec4f {
@@ -203,17 +237,99 @@ fn end_range(end: u32, place: vec3f) -> vec2f {
     return vec2f(-1e30, 1e30);
 }
 
+fn list_square(square: u32) {
+    let corner = square_corner(square, level.across, level.side);
+    let middle = square_ray(corner, level.side);
+    let surfaces = square_surfaces(corner, middle);
+    let is_coarse = level.scale > 1u;
+    let first = square * level.stride;
+    let last = first + level.stride - 1u;
+    var end = first + LIST_HEAD;
+    var tolerance = 1.0;
+    var brightest = 0.0;
+    var is_given_up = false;
+    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
+        let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
+        let seen = select(vec2f(1e30), surfaces, is_occluded);
+        let local = wave_ray(wave, middle.ray, seen.y, middle.spread);
+        if (local.low >= local.high || is_given_up) {
+            continue;
+        }
+        let head = end;
+        end += 1u;
+        let numbers = ray_wave(wave);
+        let leaves = waves[wave].leaves;
+        let root = waves[wave].node_first;
+        var node = select(0u, 1u, leaves > 0u);
+        while ((node != 0u)) {
+            let found = node_fits(root + node, numbers, local, middle.spread, seen.x);
+            let is_missed = found.fit == NODE_MISSED;
+            let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
+            if (is_used) {
+                if (end <= last) {
+                    lists[end] = root + node;
+                }
+                end += 1u;
+            }
+            is_given_up = is_used && is_coarse && (found.is_rough || end > last + 1u);
+            node = select(2u * node, next_node(node), is_used || is_missed);
+            node = select(node, 0u, node == 1u || is_given_up);
+        }
+        var ends = 0u;
+        let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
+        for (var i = first_end; i < 4u; i++) {
+            let found = end_fits(i, end_place(i, wave), numbers, local, middle.spread, seen.x);
+            if (found.fit != NODE_MISSED) {
+                ends |= 1u << i;
+                is_given_up |= is_coarse && found.is_rough;
+            }
+        }
+        let count = end - head - 1u;
+        if (count + ends == 0u) {
+            end = head;
+        }
+        else {
+            if (head <= last) {
+                lists[head] = wave | (ends << 8u) | (min(count, 65535u) << 12u);
+            }
+            tolerance = min(tolerance, waves[wave].tolerance);
+            brightest = max(brightest, max(waves[wave].alpha, max(waves[wave].swell.x, waves[wave].swell.y)));
+        }
+    }
+    lists[first] = min(end - first - LIST_HEAD, level.stride - LIST_HEAD);
+    lists[first + 1u] = bitcast<u32>(tolerance);
+    lists[first + 2u] = bitcast<u32>(0.02 * brightest);
+    lists[first + 3u] = view.layers;
+    let pixel_groups = level.side * level.side / 64u;
+    if (is_given_up || end > last + 1u) {
+        let i = atomicAdd(&left_squares.count, 1u);
+        left_squares.squares[i] = square;
+        let groups = select(i + 1u, (4u * i + 67u) / 64u, is_coarse);
+        atomicMax(&left_squares.groups, min(groups, 65535u));
+        left_squares.rows = select(pixel_groups, 1u, is_coarse);
+        left_squares.layers = 1u;
+    }
+    else if (end > first + LIST_HEAD) {
+        let i = atomicAdd(&used_squares.count, 1u);
+        used_squares.squares[i] = square;
+        let groups = select(i + 1u, (PATCH_RAYS / 2u * (i + 1u) + 63u) / 64u, is_coarse);
+        atomicMax(&used_squares.groups, min(groups, 65535u));
+        used_squares.rows = select(pixel_groups, 1u, is_coarse);
+        used_squares.layers = 1u;
+    }
+}
+
 fn next_node(node: u32) -> u32 {
     let next = node + 1u;
     return next >> firstTrailingBit(next);
 }
 
-fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> u32 {
+fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> Fit {
     let nx = nodes[node].x;
     let x0 = max(nx.x - nx.y, wave.ends.x);
     let x1 = min(nx.x + nx.y, wave.ends.y);
     if (x0 >= x1) {
-        return NODE_MISSED;
+        return MISSED;
     }
     let ny = nodes[node].y;
     let nz = nodes[node].z;
@@ -231,10 +347,10 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     low = max(low, select(-1e30, at_limit.x, slopes.x < -1e-12));
     low = max(low, select(-1e30, at_limit.y, slopes.y < -1e-12));
     if (any((abs(slopes) <= vec2f(1e-12)) & (limits < vec2f(0.0)))) {
-        return NODE_MISSED;
+        return MISSED;
     }
     if (low >= high) {
-        return NODE_MISSED;
+        return MISSED;
     }
     let slope = vec2f(ny.y, nz.y) * inverse;
     let middle = vec2f(ny.x + ny.z / 3.0, nz.x + nz.z / 3.0);
@@ -253,13 +369,13 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
         let d = q1 * q1 - q2 * q0;
         if (q2 > 1e-12) {
             if (d <= 0.0) {
-                return NODE_MISSED;
+                return MISSED;
             }
             let root = sqrt(d);
             low = max(low, (-q1 - root) / q2);
             high = min(high, (-q1 + root) / q2);
             if (low >= high) {
-                return NODE_MISSED;
+                return MISSED;
             }
         }
     }
@@ -276,16 +392,18 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
     let length_x = min(span * along, x1 - x0);
     let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
-    let strict = select(1.0, 0.05, surface - ray.middle < high);
+    let is_cut = surface - ray.middle < high;
+    let strict = select(1.0, 0.05, is_cut);
     let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
-    return select(NODE_TOO_COARSE, NODE_FITS, fits);
+    let is_rough = is_cut || d < ROUGH * (base + spread.y * nearest);
+    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough);
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return select(mix(view.depth_range.y, view.depth_range.x, depth), 1e30, depth <= 0.0);
-    }
-    return select(view.depth_range.x / max(depth, 1e-30) * ray.slant, 1e30, depth <= 0.0);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let linear = mix(view.depth_range.y, view.depth_range.x, depth);
+    let projected = view.depth_range.x / max(depth, 1e-30) * ray.slant;
+    return select(select(projected, linear, is_orthographic), 1e30, depth <= 0.0);
 }
 
 fn ray_wave(wave: u32) -> RayWave {
@@ -297,43 +415,49 @@ fn rim_of(wave: RayWave, core2: f32) -> f32 {
     return select(0.0, inverseSqrt(wave.radius * wave.radius + core2), wave.radius > 0.0);
 }
 
-fn square_ray(square: vec2u) -> SquareRay {
-    let low = vec2f(square * view.square);
-    let side = f32(view.square);
-    let ray = view_ray(low + 0.5 * side);
-    var spread = vec2f(0.0);
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        spread.x = 0.7072 * side * view.pixel_footprint;
-    }
-    else {
-        for (var i = 0u; i < 4u; i++) {
-            let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
-            spread.y = max(spread.y, length(at.direction - ray.direction));
-        }
-    }
-    return SquareRay(ray, spread);
+fn square_corner(square: u32, across: u32, side: u32) -> vec2u {
+    return (view.tile_origin / side + vec2u(square % across, square / across)) * side;
 }
 
-fn square_surface(square: vec2u, ray: ViewRay, depth: texture_2d<f32>) -> f32 {
-    var nearest = 0.0;
-    let low = vec2i(square * view.square) - vec2i(view.tile_origin);
-    let last = vec2i(view.tile_size) - 1;
-    for (var i = 0; i < 16; i++) {
-        let offset = vec2i(i & 3, i >> 2) * i32(view.square - 1u) / 3;
-        let pixel = clamp(low + offset, vec2i(0), last);
-        nearest = max(nearest, textureLoad(depth, pixel * i32(view.gbuffer_scale), 0).x);
+fn square_ray(corner: vec2u, pixels: u32) -> SquareRay {
+    let low = vec2f(corner);
+    let side = f32(pixels);
+    let ray = view_ray(low + 0.5 * side);
+    var turn = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        let at = view_ray(low + side * vec2f(f32(i & 1u), f32(i >> 1u)));
+        turn = max(turn, length(at.direction - ray.direction));
     }
-    return ray_distance(ray, nearest);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let shift = 0.7072 * side * view.pixel_footprint;
+    return SquareRay(ray, select(vec2f(0.0, turn), vec2f(shift, 0.0), is_orthographic));
+}
+
+fn square_surfaces(corner: vec2u, middle: SquareRay) -> vec2f {
+    let side = level.side / level.scale;
+    let first = vec2i(corner / side) - vec2i(view.tile_origin / side);
+    let last = vec2i(level.finest) - 1;
+    var range = vec2f(0.0, 1.0);
+    for (var i = 0; i < 16; i++) {
+        let at = first + vec2i(i & 3, i >> 2) % i32(level.scale);
+        let inside = clamp(at, vec2i(0), last);
+        let found = depths[inside.y * i32(level.finest.x) + inside.x];
+        range = vec2f(max(range.x, found.x), min(range.y, found.y));
+    }
+    let near = ray_distance(middle.ray, range.x);
+    let far = ray_distance(middle.ray, range.y);
+    let slack = middle.spread.y * (middle.ray.slant + 1.0);
+    let seen = vec2f(near * (1.0 - slack), far * (1.0 + slack));
+    return select(vec2f(1e30), seen, (view.flags & WAVE_VIEW_SURFACES) != 0u);
 }
 
 fn view_ray(pixel: vec2f) -> ViewRay {
     let moved = pixel.x * view.right.xyz + pixel.y * view.down.xyz;
-    if ((view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u) {
-        return ViewRay(view.origin.xyz + moved, view.corner.xyz, 1.0);
-    }
-    let direction = view.corner.xyz + moved;
-    let slant = length(direction);
-    return ViewRay(view.origin.xyz, direction / slant, slant);
+    let is_orthographic = (view.flags & WAVE_VIEW_ORTHOGRAPHIC) != 0u;
+    let turned = view.corner.xyz + select(moved, vec3f(0.0), is_orthographic);
+    let shifted = view.origin.xyz + select(vec3f(0.0), moved, is_orthographic);
+    let slant = select(length(turned), 1.0, is_orthographic);
+    return ViewRay(shifted, turned / slant, slant);
 }
 
 fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
@@ -357,70 +481,25 @@ fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
 }
 
 @compute @workgroup_size(64)
+fn list_quarters(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    for (var i = id.x; i < 4u * parents[3]; i += groups.x * 64u) {
+        let parent = parents[4u + i / 4u];
+        let side = 2u * level.side;
+        let last = view.tile_origin.x + view.tile_size.x - 1u;
+        let parents_across = last / side - view.tile_origin.x / side + 1u;
+        let quarter = vec2u(i & 1u, (i >> 1u) & 1u);
+        let corner = square_corner(parent, parents_across, side) + level.side * quarter;
+        let place = corner / level.side - view.tile_origin / level.side;
+        if (all(place < vec2u(level.across, level.down))) {
+            list_square(place.x + place.y * level.across);
+        }
+    }
+}
+
+@compute @workgroup_size(64)
 fn list_squares(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let square = id.x + id.y * groups.x * 64u;
-    if (square >= view.square_count) {
-        return;
-    }
-    let place = vec2u(square % view.squares_across, square / view.squares_across);
-    let corner = view.tile_origin / view.square + place;
-    let middle = square_ray(corner);
-    let surface = square_surface(corner, middle.ray, depth);
-    let first = square * (view.capacity + 1u);
-    let last = first + view.capacity;
-    var end = first + 1u;
-    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
-        let local = wave_ray(wave, middle.ray, 1e30, middle.spread);
-        if (local.low >= local.high) {
-            continue;
-        }
-        let head = end;
-        end += 1u;
-        let numbers = ray_wave(wave);
-        let leaves = waves[wave].leaves;
-        let root = waves[wave].node_first;
-        var node = select(0u, 1u, leaves > 0u);
-        while ((node != 0u)) {
-            let fit = node_fits(root + node, numbers, local, middle.spread, surface);
-            let is_used = fit == NODE_FITS || (fit != NODE_MISSED && node >= leaves);
-            if (is_used) {
-                if (end <= last) {
-                    lists[end] = root + node;
-                }
-                end += 1u;
-            }
-            node = select(2u * node, next_node(node), is_used || fit == NODE_MISSED);
-            node = select(node, 0u, node == 1u);
-        }
-        var ends = 0u;
-        let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
-        for (var i = first_end; i < 4u; i++) {
-            if (end_is_near(i, end_place(i, wave), numbers.radius, local, middle.spread)) {
-                ends |= 1u << i;
-            }
-        }
-        let count = end - head - 1u;
-        if (count + ends == 0u) {
-            end = head;
-        }
-        else if (head <= last) {
-            lists[head] = wave | (ends << 8u) | (min(count, 65535u) << 12u);
-        }
-    }
-    lists[first] = min(end - first - 1u, view.capacity);
-    let rows = view.square * view.square / 64u;
-    if (end > last + 1u) {
-        let i = atomicAdd(&full_squares.count, 1u);
-        full_squares.squares[i] = square;
-        atomicMax(&full_squares.groups, min(i + 1u, 65535u));
-        full_squares.rows = rows;
-        full_squares.layers = 1u;
-    }
-    else if (end > first + 1u) {
-        let i = atomicAdd(&used_squares.count, 1u);
-        used_squares.squares[i] = square;
-        atomicMax(&used_squares.groups, min(i + 1u, 65535u));
-        used_squares.rows = rows;
-        used_squares.layers = 1u;
+    if (square < level.across * level.down) {
+        list_square(square);
     }
 }

@@ -6,7 +6,6 @@ use crate::render::{
     frame::{Output, Tile},
     generated::{self as gpu, Glow, Wave as GpuWave, WaveCurve as GpuCurve, WaveNode, WaveView},
     gpu::bindings,
-    targets::ListGrid,
     view::{Projected, View},
 };
 use crate::scene::{
@@ -61,17 +60,24 @@ pub(crate) struct ExactKind {
     pub(crate) fades: bool,
     /// Some soft core is less than half a pixel somewhere.
     pub(crate) core_grows: bool,
+    /// The energy itself is wanted.
+    pub(crate) keeps_energy: bool,
 }
 
 impl WaveData {
     /// What a view needs.
-    pub(crate) fn exact_kind(&self, view: &View, projected: &Projected) -> ExactKind {
+    pub(crate) fn exact_kind(
+        &self,
+        view: &View,
+        projected: &Projected,
+        keeps_energy: bool,
+    ) -> ExactKind {
         let eye = Vec3::from(view.camera.world_from_camera.translation);
         let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
             let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
             core < 0.5 * projected.pixel_footprint * distance
         };
-        ExactKind { fades: self.fades, core_grows: self.spheres.iter().any(grows) }
+        ExactKind { fades: self.fades, core_grows: self.spheres.iter().any(grows), keeps_energy }
     }
 }
 
@@ -446,8 +452,8 @@ pub(crate) fn view_values(
     view: &View,
     projected: &Projected,
     tile: Tile,
-    grid: ListGrid,
     gbuffer_scale: u32,
+    has_surfaces: bool,
 ) -> WaveView {
     let matrix = &view.camera.world_from_camera;
     let axis = |v: glam::Vec3A| Vec3::from(v).as_dvec3().normalize_or(DVec3::X);
@@ -471,9 +477,10 @@ pub(crate) fn view_values(
         WaveMethod::Simpson { points, thinning } => (points, thinning),
     };
     let vec4 = |v: DVec3| v.as_vec3().extend(0.0);
-    let skipped = tile.origin.map(|at| at % grid.square);
-    let squares: [u32; 2] =
-        std::array::from_fn(|i| (skipped[i] + tile.size[i]).div_ceil(grid.square));
+    let mut flags = if is_orthographic { gpu::WAVE_VIEW_ORTHOGRAPHIC } else { 0 };
+    if has_surfaces {
+        flags |= gpu::WAVE_VIEW_SURFACES;
+    }
     WaveView {
         origin: vec4(origin),
         corner: vec4(corner),
@@ -483,18 +490,10 @@ pub(crate) fn view_values(
         tile_size: UVec2::from(tile.size),
         depth_range: projected.depth_range,
         pixel_footprint: projected.pixel_footprint,
-        reserved_2: 0,
-        square: grid.square,
-        squares_across: squares[0],
-        square_count: squares[0] * squares[1],
-        capacity: grid.capacity,
-        reserved_3: 0,
-        reserved_4: 0,
+        layers: data.layers.len() as u32,
         gbuffer_scale,
-        flags: if is_orthographic { gpu::WAVE_VIEW_ORTHOGRAPHIC } else { 0 },
+        flags,
         reference_points,
         reference_thinning,
-        reserved_0: 0,
-        reserved_1: 0,
     }
 }
