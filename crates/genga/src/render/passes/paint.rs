@@ -8,7 +8,11 @@ use crate::render::gpu::timing::Timer;
 use crate::render::{
     frame::Aim,
     layouts::Layouts,
-    prepare::{DrawItem, Prepared, lights::light_count, shine::Features},
+    prepare::{
+        DrawItem, Prepared,
+        lights::{MAX_LIGHTS, light_count},
+        shine::Features,
+    },
     targets::{PAINT_FORMAT, Targets, paint_samples},
 };
 use crate::style::LineMethod;
@@ -88,7 +92,8 @@ impl PaintPass {
             PaintOutput::All | PaintOutput::Highlights => features,
             _ => features.without_shine(),
         };
-        let lights = light_count(&prepared.lights) as u32;
+        let lights =
+            (light_count(&prepared.lights) + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();

@@ -137,6 +137,10 @@ impl BeamData {
         }
     }
 
+    pub(crate) fn light_count(&self) -> usize {
+        self.lights.len()
+    }
+
     /// The lights that there is room for, the strongest first.
     pub(crate) fn lights(&self) -> Vec<Light> {
         let mut lights = self.lights.clone();
