@@ -174,6 +174,8 @@ const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
+const OCTAVES: u32 = 4u;
+
 const OUTPUT_BASE: u32 = 3u;
 
 const OUTPUT_COORDINATES: u32 = 2u;
@@ -203,6 +205,10 @@ const SHINE_GRADIENT: u32 = 1u;
 const SHINE_PAPER: u32 = 4u;
 
 const SHINE_REPLACE: u32 = 2u;
+
+const TABLE_DARKEST: f32 = 1.5;
+
+const TABLE_STEPS: vec2f = vec2f(32.0, 8.0);
 
 const TAPER: f32 = 0.12;
 
@@ -1040,25 +1046,36 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
     return vec3f(hue, range / max(high, 1e-6), high);
 }
 
-fn image_ink(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f) -> f32 {
-    let step = 0.5 * (length(vec2f(dx.x, dy.x)) + length(vec2f(dx.y, dy.y)));
-    let rho = clamp(log2(max(step * pen.spacing, 1e-30)), -60.0, 60.0);
-    let m = floor(rho);
-    let period = exp2(m);
-    let size = f32(textureDimensions(hatch_image).x);
-    let level = max(log2(size * step * pen.texel / period), 0.0);
-    let s = image_profile(p, period, rho - m, level);
-    let s_x = image_profile(p + dx * pen.texel, period, rho - m, level);
-    let s_y = image_profile(p + dy * pen.texel, period, rho - m, level);
-    let slope = max(max(abs(s_x - s), abs(s_y - s)), 0.02);
-    return saturate((pen.darkness - s) / slope + 0.5) * saturate(pen.darkness * 16.0);
+fn image_darkness(part: f32, size: f32) -> f32 {
+    let at = saturate(vec2f(part, size - 1.0)) * TABLE_STEPS;
+    let low = min(floor(at), TABLE_STEPS - 1.0);
+    let w = at - low;
+    let i = vec2i(low);
+    let top = mix(textureLoad(hatch_image, i, 0).g, textureLoad(hatch_image, i + vec2i(1, 0), 0).g, w.x);
+    let bottom = mix(textureLoad(hatch_image, i + vec2i(0, 1), 0).g, textureLoad(hatch_image, i + vec2i(1, 1), 0).g, w.x);
+    return TABLE_DARKEST * mix(top, bottom, w.y);
 }
 
-fn image_profile(p: vec2f, period: f32, frac: f32, level: f32) -> f32 {
-    let fine = textureSampleLevel(hatch_image, hatch_sampler, p / period, level).r;
-    let coarse = textureSampleLevel(hatch_image, hatch_sampler, p / (2.0 * period), level + 1.0).r;
-    let gain = inverseSqrt(frac * frac + (1.0 - frac) * (1.0 - frac));
-    return saturate(0.5 + (mix(fine, coarse, frac) - 0.5) * gain);
+fn image_ink(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f) -> f32 {
+    let step = 0.5 * (length(vec2f(dx.x, dy.x)) + length(vec2f(dx.y, dy.y)));
+    let fine = octave(0.0, step * pen.spacing);
+    let part = saturate(pen.darkness);
+    let darkness = image_darkness(part, fine.size);
+    let texels = vec2f(textureDimensions(hatch_image));
+    let shape = vec2f(texels.y / texels.x, 1.0);
+    var ink = 0.0;
+    for (var k = 0u; k < OCTAVES; k++) {
+        let times = f32(1u << k);
+        let period = fine.period * times;
+        let level = log2(max(0.35 * texels.y * step * pen.texel / period, 1e-6));
+        let texel = textureSampleLevel(hatch_image, hatch_sampler, (p / period) * shape + 0.5 / texels, level);
+        var width = select(fine.size / times, 2.0 - fine.size, k == 0u);
+        width *= select(1.0, fine.size - 1.0, k == OCTAVES - 1u);
+        let change = (exp2(10.0 * texel.ba) - 1.0) * vec2f(length(vec2f(dx.x, dy.x)), length(vec2f(dx.y, dy.y)));
+        let slope = clamp(length(change) * pen.texel / period, 0.0001, 1.0);
+        ink = max(ink, stroke_coverage(texel.r / slope, darkness * width / slope, 1.0));
+    }
+    return select(saturate(ink), 1.0, part >= 1.0) * select(0.0, 1.0, part > 0.0 && step > 1e-20);
 }
 
 fn inked(shaded: Shaded, point: HatchPoint) -> vec4f {
