@@ -703,6 +703,12 @@ fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split:
     return max(h.z, 0.0);
 }
 
+fn darkness_for(wanted: f32, loose: f32) -> f32 {
+    let d = max(wanted, 0.0);
+    let more = (0.5 - 0.17 * loose) * loose * d * max(1.0 + (0.2 - 0.05 * loose) * loose - d, 0.0);
+    return wanted + more / (d + 0.13 * loose + 1e-6);
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
@@ -1843,11 +1849,12 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let weight = vec2f(even.weight, odd.weight);
     let gap = vec2f(even.gap, odd.gap) * select(0.0, 1.0, pen.length > 0.0);
     let loose = pen.irregularity;
+    let wanted = darkness_for(pen.darkness, loose);
     let carried = saturate(share.x + share.y * weight.yx);
-    let light = saturate(1.0 - pen.darkness);
-    let black = saturate(2.5 * (1.3 - pen.darkness));
-    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(pen.darkness, 0.0)));
-    let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
+    let light = saturate(1.0 - wanted);
+    let black = saturate(2.5 * (1.3 - wanted));
+    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(wanted, 0.0)));
+    let darkness = vec2f(wanted) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - shared_rest(tone, carried);
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
