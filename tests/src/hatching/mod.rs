@@ -2,6 +2,7 @@
 //! on the surface and follow it.
 
 pub mod directions;
+pub mod pictures;
 pub mod planes;
 pub mod subjects;
 pub mod surface;

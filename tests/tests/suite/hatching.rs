@@ -117,3 +117,18 @@ fn strokes_are_no_comb() {
     assert!(drawn >= 0.15, "{drawn:.3}");
     assert!(ruled < 0.05, "a ruler's ends spread by {ruled:.3}, so this proves nothing");
 }
+
+#[test]
+fn strokes_of_a_hand_cover_the_asked_tone() {
+    for i in 1_u8..=9 {
+        let tone = f64::from(i) / 10.0;
+        let toml = format!(
+            "pattern = \"strokes\"\nspacing = 8\ntones = [{{ at = 0, lum = {} }}]",
+            0.75 - 0.5 * tone
+        );
+        let style = hatching(&toml, 256);
+        let at = |step: u8| planes::measure(&style, (0.125 * f32::from(step)).exp2(), 0.0).coverage;
+        let coverage = (0..8).map(at).sum::<f64>() / 8.0;
+        assert!((coverage - tone).abs() <= 0.02, "tone {tone}: {coverage:.3}");
+    }
+}

@@ -8,6 +8,7 @@ mod edges;
 mod errors;
 mod geometry;
 mod hatching;
+mod hatching_pictures;
 mod highlight_surfaces;
 mod highlights;
 mod lines;

@@ -34,7 +34,8 @@ pub struct Hatch {
     /// Turns strokes, in degrees, counter-clockwise: from the horizontal of the picture (`screen`)
     /// or from the first texture coordinate (`uv`), or from the direction (`surface`).
     pub angle_deg: f32,
-    /// Largest distance between strokes in pixels at the style's reference height.
+    /// Largest distance between strokes in pixels at the style's reference height; with `image`, the
+    /// largest height of the picture.
     pub spacing: f32,
     /// Largest length of a stroke in pixels at the style's reference height; 0 for endless ones.
     pub length: f32,
@@ -60,7 +61,9 @@ pub struct Hatch {
     pub lines_per_inch: f32,
     /// Height of the printed picture in inches; only with `dots`.
     pub page_height_in: f32,
-    /// Pattern of the user's, tiled: black is the middle of strokes; only with `image`.
+    /// Pattern of the user's, tiled: black is the middle of strokes, which run to its right; only with
+    /// `image`. Its greys count by their order: each tone covers the part of the paper that it
+    /// stands for. Strokes in black and white become thinner and wider, too.
     pub image: Option<Arc<Image>>,
 }
 
@@ -168,7 +171,8 @@ struct HatchFile {
     /// Turns the strokes, in degrees.
     #[schemars(range(min = -180, max = 180))]
     angle_deg: Option<f32>,
-    /// Largest distance between strokes in pixels at the reference height.
+    /// Largest distance between strokes in pixels at the reference height; with the pattern "image",
+    /// the largest height of the picture.
     #[schemars(range(min = 1, max = 1000))]
     spacing: Option<f32>,
     /// Largest length of a stroke in pixels at the reference height; 0 for endless ones.

@@ -176,6 +176,8 @@ const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
+const OCTAVES: u32 = 4u;
+
 const OUTPUT_BASE: u32 = 3u;
 
 const OUTPUT_COORDINATES: u32 = 2u;
@@ -205,6 +207,10 @@ const SHINE_GRADIENT: u32 = 1u;
 const SHINE_PAPER: u32 = 4u;
 
 const SHINE_REPLACE: u32 = 2u;
+
+const TABLE_DARKEST: f32 = 1.5;
+
+const TABLE_STEPS: vec2f = vec2f(32.0, 8.0);
 
 const TAPER: f32 = 0.12;
 
@@ -699,6 +705,12 @@ fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split:
     return max(h.z, 0.0);
 }
 
+fn darkness_for(wanted: f32, loose: f32) -> f32 {
+    let d = max(wanted, 0.0);
+    let more = (0.5 - 0.17 * loose) * loose * d * max(1.0 + (0.2 - 0.05 * loose) * loose - d, 0.0);
+    return wanted + more / (d + 0.13 * loose + 1e-6);
+}
+
 fn display_from_linear(c: vec3f) -> vec3f {
     let low = c * 12.92;
     let high = 1.055 * pow(max(c, vec3f(0.0031308)), vec3f(1.0 / 2.4)) - 0.055;
@@ -1042,25 +1054,36 @@ fn hsv_from_rgb(c: vec3f) -> vec3f {
     return vec3f(hue, range / max(high, 1e-6), high);
 }
 
-fn image_ink(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f) -> f32 {
-    let step = 0.5 * (length(vec2f(dx.x, dy.x)) + length(vec2f(dx.y, dy.y)));
-    let rho = clamp(log2(max(step * pen.spacing, 1e-30)), -60.0, 60.0);
-    let m = floor(rho);
-    let period = exp2(m);
-    let size = f32(textureDimensions(hatch_image).x);
-    let level = max(log2(size * step * pen.texel / period), 0.0);
-    let s = image_profile(p, period, rho - m, level);
-    let s_x = image_profile(p + dx * pen.texel, period, rho - m, level);
-    let s_y = image_profile(p + dy * pen.texel, period, rho - m, level);
-    let slope = max(max(abs(s_x - s), abs(s_y - s)), 0.02);
-    return saturate((pen.darkness - s) / slope + 0.5) * saturate(pen.darkness * 16.0);
+fn image_darkness(part: f32, size: f32) -> f32 {
+    let at = saturate(vec2f(part, size - 1.0)) * TABLE_STEPS;
+    let low = min(floor(at), TABLE_STEPS - 1.0);
+    let w = at - low;
+    let i = vec2i(low);
+    let top = mix(textureLoad(hatch_image, i, 0).g, textureLoad(hatch_image, i + vec2i(1, 0), 0).g, w.x);
+    let bottom = mix(textureLoad(hatch_image, i + vec2i(0, 1), 0).g, textureLoad(hatch_image, i + vec2i(1, 1), 0).g, w.x);
+    return TABLE_DARKEST * mix(top, bottom, w.y);
 }
 
-fn image_profile(p: vec2f, period: f32, frac: f32, level: f32) -> f32 {
-    let fine = textureSampleLevel(hatch_image, hatch_sampler, p / period, level).r;
-    let coarse = textureSampleLevel(hatch_image, hatch_sampler, p / (2.0 * period), level + 1.0).r;
-    let gain = inverseSqrt(frac * frac + (1.0 - frac) * (1.0 - frac));
-    return saturate(0.5 + (mix(fine, coarse, frac) - 0.5) * gain);
+fn image_ink(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f) -> f32 {
+    let step = 0.5 * (length(vec2f(dx.x, dy.x)) + length(vec2f(dx.y, dy.y)));
+    let fine = octave(0.0, step * pen.spacing);
+    let part = saturate(pen.darkness);
+    let darkness = image_darkness(part, fine.size);
+    let texels = vec2f(textureDimensions(hatch_image));
+    let shape = vec2f(texels.y / texels.x, 1.0);
+    var ink = 0.0;
+    for (var k = 0u; k < OCTAVES; k++) {
+        let times = f32(1u << k);
+        let period = fine.period * times;
+        let level = log2(max(0.35 * texels.y * step * pen.texel / period, 1e-6));
+        let texel = textureSampleLevel(hatch_image, hatch_sampler, (p / period) * shape + 0.5 / texels, level);
+        var width = select(fine.size / times, 2.0 - fine.size, k == 0u);
+        width *= select(1.0, fine.size - 1.0, k == OCTAVES - 1u);
+        let change = (exp2(10.0 * texel.ba) - 1.0) * vec2f(length(vec2f(dx.x, dy.x)), length(vec2f(dx.y, dy.y)));
+        let slope = clamp(length(change) * pen.texel / period, 0.0001, 1.0);
+        ink = max(ink, stroke_coverage(texel.r / slope, darkness * width / slope, 1.0));
+    }
+    return select(saturate(ink), 1.0, part >= 1.0) * select(0.0, 1.0, part > 0.0 && step > 1e-20);
 }
 
 fn inked(shaded: Shaded, point: HatchPoint) -> vec4f {
@@ -1835,11 +1858,12 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let weight = vec2f(even.weight, odd.weight);
     let gap = vec2f(even.gap, odd.gap) * select(0.0, 1.0, pen.length > 0.0);
     let loose = pen.irregularity;
+    let wanted = darkness_for(pen.darkness, loose);
     let carried = saturate(share.x + share.y * weight.yx);
-    let light = saturate(1.0 - pen.darkness);
-    let black = saturate(2.5 * (1.3 - pen.darkness));
-    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(pen.darkness, 0.0)));
-    let darkness = vec2f(pen.darkness) + loose * (heavier - 1.8 * light * light * gap);
+    let light = saturate(1.0 - wanted);
+    let black = saturate(2.5 * (1.3 - wanted));
+    let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(wanted, 0.0)));
+    let darkness = vec2f(wanted) + loose * (heavier - 1.8 * light * light * gap);
     let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
     var part = 1.0 - shared_rest(tone, carried);
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));

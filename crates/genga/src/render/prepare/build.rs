@@ -281,7 +281,7 @@ impl<'a> Builder<'a> {
         let (base, base_sampler) = self.textures.get(material.base_color_texture);
         let (emissive, emissive_sampler) = self.textures.get(material.emissive_texture);
         let id = self.textures.style_image(look.id_image.as_ref());
-        let hatch = self.textures.style_image(look.hatch.image.as_ref());
+        let hatch = self.textures.hatch_picture(look.hatch.image.as_ref());
         let hatch_sampler = self.textures.sampler(Sampler::default());
         let shade = self.textures.style_image(shade);
         use wgpu::BindingResource as R;

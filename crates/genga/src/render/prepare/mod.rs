@@ -5,6 +5,7 @@ mod build;
 mod directions;
 mod drawn;
 pub(crate) mod geometry;
+mod hatch_picture;
 pub(crate) mod highlights;
 pub(crate) mod lights;
 pub(crate) mod looks;

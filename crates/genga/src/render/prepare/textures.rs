@@ -16,6 +16,8 @@ pub(crate) struct Textures<'a> {
     queue: &'a wgpu::Queue,
     scene: &'a Scene,
     images: HashMap<usize, wgpu::TextureView>,
+    /// By address.
+    hatch_pictures: HashMap<usize, wgpu::TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
     white: wgpu::TextureView,
     pub(crate) warnings: Vec<String>,
@@ -24,9 +26,17 @@ pub(crate) struct Textures<'a> {
 impl<'a> Textures<'a> {
     pub(crate) fn new(device: &'a wgpu::Device, queue: &'a wgpu::Queue, scene: &'a Scene) -> Self {
         let white = Image { name: String::new(), width: 1, height: 1, rgba: vec![255; 4] };
-        let white = upload(device, queue, &white, false);
-        let (images, samplers) = (HashMap::new(), HashMap::new());
-        Self { device, queue, scene, images, samplers, white, warnings: Vec::new() }
+        let white = upload(device, queue, &white, Mips::None);
+        Self {
+            device,
+            queue,
+            scene,
+            images: HashMap::new(),
+            hatch_pictures: HashMap::new(),
+            samplers: HashMap::new(),
+            white,
+            warnings: Vec::new(),
+        }
     }
 
     /// The picture and sampler of a material's texture; white where there is none.
@@ -47,8 +57,18 @@ impl<'a> Textures<'a> {
     pub(crate) fn style_image(&self, image: Option<&Arc<Image>>) -> wgpu::TextureView {
         image.map_or_else(
             || self.white.clone(),
-            |image| upload(self.device, self.queue, &fitted(self.device, image).0, false),
+            |image| upload(self.device, self.queue, &fitted(self.device, image).0, Mips::None),
         )
+    }
+
+    /// A picture of a style as a hatching pattern; white where there is none.
+    pub(crate) fn hatch_picture(&mut self, image: Option<&Arc<Image>>) -> wgpu::TextureView {
+        let Some(image) = image.filter(|image| is_complete(image)) else {
+            return self.white.clone();
+        };
+        let make =
+            || upload(self.device, self.queue, &super::hatch_picture::prepare(image), Mips::Raw);
+        self.hatch_pictures.entry(Arc::as_ptr(image) as usize).or_insert_with(make).clone()
     }
 
     fn image(&mut self, index: usize) -> wgpu::TextureView {
@@ -65,7 +85,7 @@ impl<'a> Textures<'a> {
                 image.name, image.width, image.height, fitting.width, fitting.height,
             ));
         }
-        let view = upload(self.device, self.queue, &fitting, true);
+        let view = upload(self.device, self.queue, &fitting, Mips::Color);
         self.images.insert(index, view.clone());
         view
     }
@@ -116,15 +136,29 @@ fn fitted<'a>(device: &wgpu::Device, image: &'a Image) -> (std::borrow::Cow<'a, 
     (result, was_reduced)
 }
 
+/// Smaller levels of a picture.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Mips {
+    None,
+    /// Means in linear light.
+    Color,
+    /// Means of the values.
+    Raw,
+}
+
 fn upload(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     image: &Image,
-    mips: bool,
+    mips: Mips,
 ) -> wgpu::TextureView {
     let mut data = image.rgba.clone();
     let mut levels = 1;
-    if mips {
+    let half = match mips {
+        Mips::Raw => half_raw,
+        Mips::None | Mips::Color => half,
+    };
+    if mips != Mips::None {
         let mut level = half(image);
         let count = 32 - image.width.max(image.height).leading_zeros();
         while levels < count {
@@ -187,6 +221,27 @@ fn half(image: &Image) -> Image {
                 rgba.push(encoded[(value.clamp(0.0, 1.0).sqrt() * 65536.0).round() as usize]);
             }
             rgba.push((alpha / 4.0 * 255.0).round() as u8);
+        }
+    }
+    Image { name: image.name.clone(), width, height, rgba }
+}
+
+/// The next mip level of raw values.
+fn half_raw(image: &Image) -> Image {
+    let (width, height) = ((image.width / 2).max(1), (image.height / 2).max(1));
+    let mut rgba = Vec::with_capacity(4 * width as usize * height as usize);
+    for y in 0..height {
+        for x in 0..width {
+            let corners = [0, 1]
+                .map(|i| [(2 * x + i).min(image.width - 1), (2 * y + i).min(image.height - 1)]);
+            let [[left, top], [right, bottom]] = corners;
+            for c in 0..4 {
+                let sum: u32 = [[left, top], [right, top], [left, bottom], [right, bottom]]
+                    .iter()
+                    .map(|[x, y]| u32::from(image.rgba[4 * (y * image.width + x) as usize + c]))
+                    .sum();
+                rgba.push(((sum + 2) / 4) as u8);
+            }
         }
     }
     Image { name: image.name.clone(), width, height, rgba }
