@@ -73,6 +73,8 @@ const LINE_SILHOUETTE: u32 = 1u;
 
 const MAX_LIGHTS: u32 = 16u;
 
+const OF_STEP: f32 = 0.25;
+
 const OTHER_IN_FRONT: f32 = 2.0;
 
 const PIECE_COVERED_A: u32 = 256u;
@@ -520,9 +522,9 @@ fn look_up(t: f32) -> Found {
     else if ((line.types & LINE_SILHOUETTE) != 0u) {
         let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
         let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
-        if (threshold > 0.0 && step > 0.25 * threshold) {
+        if (threshold > 0.0 && step > OF_STEP * threshold) {
             types |= LINE_SILHOUETTE;
-            strength = max(strength, min(step / (0.25 * threshold) - 1.0, 1.0));
+            strength = max(strength, min(step / (OF_STEP * threshold) - 1.0, 1.0));
         }
         let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
         let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
