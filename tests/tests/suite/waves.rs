@@ -413,9 +413,9 @@ fn the_reference_method_comes_near_the_same_energy() {
         let wave = Wave { core: 0.2, ..wave(shape) };
         let exact = energies(&scene_of(std::slice::from_ref(&wave)), &view);
         let peak = exact.iter().copied().fold(0.0, f32::max);
-        for thinning in [1, 2] {
+        for (thinning, de_boor) in [(1, false), (2, false), (1, true)] {
             let mut scene = scene_of(std::slice::from_ref(&wave));
-            scene.wave_method = WaveMethod::Simpson { points: 1000, thinning };
+            scene.wave_method = WaveMethod::Simpson { points: 1000, thinning, de_boor };
             for (a, b) in exact.iter().zip(energies(&scene, &view)) {
                 assert!((a - b).abs() <= 0.01 * a.max(peak / 20.0), "{name}: {a} and {b}");
             }
