@@ -177,11 +177,18 @@ fn the_parts_before_and_behind_a_wall_make_up_the_whole() {
 fn no_ray_gives_a_number_that_is_none() {
     let mut random = Random(3);
     for (name, shape) in wave_shapes() {
-        for scale in [1e-3, 1.0, 1e4] {
+        for (scale, core, radius) in [
+            (1e-3, 0.02, Some(0.8)),
+            (1.0, 0.02, None),
+            (1.0, 0.0, None),
+            (1.0, 0.0, Some(0.8)),
+            (1e4, 0.02, None),
+            (1e4, 0.0, Some(0.8)),
+        ] {
             let scaled = scaled(&shape, scale);
             let wave = Wave {
-                core: 0.02 * scale,
-                radius: if random.below(2) == 0 { None } else { Some(0.8 * scale) },
+                core: core * scale,
+                radius: radius.map(|radius: f32| radius * scale),
                 reach: 1000.0 * scale,
                 attenuation: random.below(3) as f32,
                 swell: [0.1, 0.2],

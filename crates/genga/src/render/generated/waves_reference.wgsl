@@ -170,7 +170,8 @@ fn bezier(first: u32, degree: u32, s: f32) -> vec3f {
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
-    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
+    let pixel = wave.half_pixel.x + wave.half_pixel.y * max(distance, view.depth_range.x);
+    return max(wave.core, pixel);
 }
 
 fn curve_at(wave: u32, s: f32) -> vec3f {
