@@ -249,8 +249,9 @@ fn onward(end: u32) -> u32 {
     if (other == NOWHERE) {
         return NOWHERE;
     }
-    let same = ((states[end >> 1u].x ^ states[other >> 1u].x) & SETS) == 0u;
-    return select(NOWHERE, other, same);
+    let both = states[end >> 1u].x & states[other >> 1u].x & SETS;
+    let neither = ((states[end >> 1u].x | states[other >> 1u].x) & SETS) == 0u;
+    return select(NOWHERE, other, both != 0u || neither);
 }
 
 fn piece_count() -> u32 {

@@ -79,6 +79,7 @@ struct Course {
     depth_b: f32,
     outward: vec2f,
     reach: f32,
+    to_eye: vec3f,
     own_depth: f32,
     own_step: f32,
     types: u32,

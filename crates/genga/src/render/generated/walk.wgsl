@@ -87,6 +87,11 @@ const SET_HIDDEN: u32 = 1u;
 
 const SLACK: f32 = 0.3;
 
+struct Beyond {
+    step: f32,
+    away: f32
+}
+
 struct Course {
     a: vec2f,
     b: vec2f,
@@ -94,6 +99,7 @@ struct Course {
     depth_b: f32,
     outward: vec2f,
     reach: f32,
+    to_eye: vec3f,
     own_depth: f32,
     own_step: f32,
     types: u32,
@@ -433,6 +439,14 @@ fn is_own_near(p_px: vec2f) -> bool {
     return false;
 }
 
+fn is_turned_away(p_px: vec2f) -> bool {
+    let texel = texel_of(p_px);
+    if (((textureLoad(ids, texel, 0).x ^ line.owner) & ID_OBJECT) != 0u) {
+        return false;
+    }
+    return dot(textureLoad(normals, texel, 0).xyz, line.to_eye) < 0.0;
+}
+
 fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
     return light.factors.x * light_term(light, p_in_world, normal).term;
 }
@@ -495,6 +509,26 @@ fn lit(p: vec3f, normal: vec3f) -> f32 {
     return saturate(0.5 + 0.5 * clamp(sum, -1.0, 1.0));
 }
 
+fn look_beyond(p_px: vec2f, line_depth: f32) -> Beyond {
+    var largest = Beyond(0.0, max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale));
+    for (var away = 1.5; away < 64.0; away *= 2.0) {
+        let near = depth_at(p_px + away * line.outward);
+        if (near <= 0.0) {
+            return Beyond(1000000000.0, max(away, 0.75 / frame.gbuffer_scale));
+        }
+        let far = depth_at(p_px + (away + 1.5) * line.outward);
+        let gone = near + (near - far) * (away / 1.5);
+        let step = -max(behind_in_pixels(frame, line_depth, near), behind_in_pixels(frame, line_depth, gone));
+        if (step > largest.step) {
+            largest = Beyond(step, max(away, largest.away));
+        }
+        if (away >= line.reach && !is_turned_away(p_px + away * line.outward)) {
+            break;
+        }
+    }
+    return largest;
+}
+
 fn look_up(t: f32) -> Found {
     let nothing = Found(0u, 0.0, 0.0, false);
     let p_px = mix(line.a, line.b, t);
@@ -520,14 +554,14 @@ fn look_up(t: f32) -> Found {
         through = textureLoad(ids, texel_of(p_px), 0).x >> ID_THROUGH_SHIFT;
     }
     else if ((line.types & LINE_SILHOUETTE) != 0u) {
-        let step = step_beyond(p_px, line_depth) / max(frame.line_scale, 1.0);
+        let found = look_beyond(p_px, line_depth);
+        let step = found.step / max(frame.line_scale, 1.0);
         let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
         if (threshold > 0.0 && step > OF_STEP * threshold) {
             types |= LINE_SILHOUETTE;
             strength = max(strength, min(step / (OF_STEP * threshold) - 1.0, 1.0));
         }
-        let away = max(max(1.5, line.reach), 0.75 / frame.gbuffer_scale);
-        let beyond = textureLoad(ids, texel_of(p_px + away * line.outward), 0).xy;
+        let beyond = textureLoad(ids, texel_of(p_px + found.away * line.outward), 0).xy;
         var identities = 0u;
         if ((beyond.x & ID_OBJECT) != (line.owner & ID_OBJECT)) {
             identities |= LINE_OBJECT;
@@ -653,6 +687,7 @@ fn set_course(index: u32) {
     if (line.types != line.known) {
         let inner = vec3f(lines[index].inner_x, lines[index].inner_y, lines[index].inner_z);
         line.outward = outward_from(inner);
+        line.to_eye = to_eye(frame, 0.5 * (p_a + p_b));
     }
     line.widths = unpack2x16float(lines[index].widths);
     line.curvatures = unpack2x16float(lines[index].curvatures);
@@ -675,28 +710,17 @@ fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
 }
 
-fn step_beyond(p_px: vec2f, line_depth: f32) -> f32 {
-    var largest = 0.0;
-    for (var away = 1.5; away < 64.0; away *= 2.0) {
-        let near = depth_at(p_px + away * line.outward);
-        if (near <= 0.0) {
-            return 1000000000.0;
-        }
-        let far = depth_at(p_px + (away + 1.5) * line.outward);
-        let gone = near + (near - far) * (away / 1.5);
-        let step = -max(behind_in_pixels(frame, line_depth, near), behind_in_pixels(frame, line_depth, gone));
-        largest = max(largest, step);
-        if (away >= line.reach) {
-            break;
-        }
-    }
-    return largest;
-}
-
 fn texel_of(p_px: vec2f) -> vec2i {
     let size = vec2i(textureDimensions(ids));
     let at = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
     return clamp(at, vec2i(0), size - 1);
+}
+
+fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.eye.xyz;
+    }
+    return normalize(frame.eye.xyz - p_in_world);
 }
 
 @compute @workgroup_size(64)

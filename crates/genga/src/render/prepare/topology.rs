@@ -77,6 +77,9 @@ const COARSE_COSINE: f32 = 0.906;
 /// Cosine under which two normals at one place are different ones.
 const SAME_NORMAL: f32 = 0.9995;
 
+/// Sine of the angle up to which two faces lie in one plane, by the rounding of their corners.
+const COPLANAR_SINE: f32 = 3e-4;
+
 /// All primitives of a mesh, with vertices counted on.
 struct Whole<'a> {
     primitives: &'a [Primitive],
@@ -269,8 +272,8 @@ fn line_edge(
     };
     edge.is_uv_seam = ends.into_iter().any(torn);
     // Coplanar faces turn away together.
-    let folds =
-        edge.is_flat.contains(&true) && whole.face(left).dot(whole.face(right)) < SAME_NORMAL;
+    let folds = edge.is_flat.contains(&true)
+        && whole.face(left).cross(whole.face(right)).length() > COPLANAR_SINE;
     (edge.is_hard || folds || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
 }
 
