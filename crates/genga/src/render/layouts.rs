@@ -5,7 +5,7 @@ use super::gpu::bindings::{Binding as B, layout};
 /// See `shaders/lib/bindings.wesl` and the headers of the passes.
 pub(crate) struct Layouts {
     /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures,
-    /// shadow maps, the draw's number.
+    /// shadow maps, the draw's number, places of stipple.
     pub(crate) surface: wgpu::BindGroupLayout,
     /// Group 1 of passes that draw surfaces: base colour, emissive, ids, hatching.
     pub(crate) material: wgpu::BindGroupLayout,
@@ -53,6 +53,7 @@ impl Layouts {
                     (8, B::NearestSampler),
                     (9, B::Uniform),
                     (10, B::DynamicUniform),
+                    (11, B::Uint),
                 ],
             ),
             material: layout(
