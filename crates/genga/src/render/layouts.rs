@@ -78,7 +78,7 @@ impl Layouts {
                 S::FRAGMENT,
                 &[
                     (0, B::DynamicUniform),
-                    (1, B::FilteredLayers),
+                    (1, B::UintLayers),
                     (2, B::FilteredLayers),
                     (3, B::FilteredLayers),
                     (4, B::Sampler),
