@@ -27,6 +27,9 @@ var<storage, read> ranks: array<vec2u>;
 @group(1) @binding(4)
 var<storage, read> places: array<vec4f>;
 
+@group(1) @binding(5)
+var<storage, read> marks: array<u32>;
+
 const AT_LINE: f32 = 0.75;
 
 const BEFORE_CUT: f32 = 3.0;
@@ -310,7 +313,24 @@ fn ending(end: u32) -> Ending {
         let cut_bit = select(PIECE_COVERED_B, PIECE_COVERED_A, (other & 1u) == 0u);
         is_cut = (pieces[other >> 1u].sets & cut_bit) != 0u;
     }
-    return Ending(bitcast<f32>(rank.y), !is_joined && !is_cut, is_joined, false);
+    let is_free = !is_joined && !is_cut && !goes_on(last);
+    return Ending(bitcast<f32>(rank.y), is_free, is_joined, false);
+}
+
+fn goes_on(end: u32) -> bool {
+    let place = places[end >> 1u];
+    let tip = select(place.zw, place.xy, (end & 1u) == 0u);
+    let back = select(place.xy, place.zw, (end & 1u) == 0u);
+    let along = tip - back;
+    let unit = along * inverseSqrt(max(dot(along, along), 1e-12));
+    let ahead = 1.5 + 2.0 / min(frame.gbuffer_scale, 1.0);
+    let size = vec2i(textureDimensions(ids));
+    let texel = vec2i(floor((tip + ahead * unit - frame.tile_origin) * frame.gbuffer_scale));
+    if (any(texel < vec2i(0)) || any(texel >= size)) {
+        return false;
+    }
+    let index = u32(texel.y * size.x + texel.x);
+    return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
 }
 
 fn hashed(cell: vec3i, seed: u32) -> vec2f {
