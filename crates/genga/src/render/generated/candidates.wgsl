@@ -51,6 +51,10 @@ const EDGE_USER: u32 = 1073741824u;
 
 const EDGE_UV_SEAM: u32 = 2147483648u;
 
+const FOLD_FACING: f32 = 0.02;
+
+const FOLD_GROWTH: f32 = 0.06;
+
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const LINE_BORDER: u32 = 16u;
@@ -554,7 +558,14 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     let left_changes = facing_left.x * facing_left.y < 0.0;
     let right_changes = facing_right.x * facing_right.y < 0.0;
     let can_be_silhouette = is_hard && (left_changes || right_changes || facing_left.x * facing_right.x < 0.0 || facing_left.y * facing_right.y < 0.0);
-    if (known == 0u && !can_be_silhouette) {
+    var fold = 0.0;
+    let to_eye = facing_vector(frame, c0.p);
+    let left_plane = dot(left_normal, to_eye);
+    if (!is_hard && left_plane * dot(right_normal, to_eye) < 0.0) {
+        let facing = min(min(facing_left.x, facing_left.y), min(facing_right.x, facing_right.y)) * inverseSqrt(max(dot(to_eye, to_eye), 1e-37));
+        fold = saturate((facing - FOLD_FACING) / FOLD_GROWTH);
+    }
+    if (known == 0u && !can_be_silhouette && fold == 0.0) {
         return;
     }
     var cuts = vec4f(0.0, 1.0, 1.0, 1.0);
@@ -582,7 +593,7 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         let left_faces = mix(facing_left.x, facing_left.y, middle) > 0.0;
         let right_faces = mix(facing_right.x, facing_right.y, middle) > 0.0;
         let is_border = right == EDGE_NONE;
-        let is_silhouette = is_hard && (left_faces != right_faces || is_border);
+        let is_silhouette = (is_hard && (left_faces != right_faces || is_border)) || fold > 0.0;
         let is_seen = two_sided || left_faces || (right_faces && !is_border);
         if (s1 - s0 < 1e-6 || !is_seen || (known == 0u && !is_silhouette)) {
             continue;
@@ -597,11 +608,15 @@ fn find_edges(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             grown = saturate(facing / max(size * away * BORDER_GROWTH, 1e-37));
             grown *= grown;
         }
+        if (fold > 0.0 && known == 0u) {
+            grown = vec2f(fold);
+        }
         kind.order = mixed(range.order_first + number, u32(i));
         kind.known = known;
         kind.types = known | select(0u, LINE_SILHOUETTE, is_silhouette);
         kind.crease = crease;
-        kind.inner = select(right_third, third, left_faces || is_border);
+        let is_left_nearer = select(left_faces || is_border, left_plane > 0.0, fold > 0.0);
+        kind.inner = select(right_third, third, is_left_nearer);
         let is_end_of_smooth = ((edge.left ^ edge.right) & EDGE_FLAT) != 0u && !is_border;
         if (is_silhouette && is_end_of_smooth && known == 0u) {
             let smooth_third = select(third, right_third, (edge.left & EDGE_FLAT) != 0u);

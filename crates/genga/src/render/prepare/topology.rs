@@ -157,9 +157,12 @@ impl Topology {
         let is_smooth = smooth_triangles(&whole, &pairs);
         let smooth_normals = smooth_normals(&whole, &welded);
         let curvatures = curvatures(&whole, &welded, &pairs);
+        let deforms = primitives.iter().any(|p| !p.joints.is_empty() || !p.morph_targets.is_empty());
         let mut edges: Vec<LineEdge> = pairs
             .into_iter()
-            .filter_map(|(left, right)| line_edge(&whole, &line_ids, &is_smooth, left, right))
+            .filter_map(|(left, right)| {
+                line_edge(&whole, &line_ids, &is_smooth, deforms, left, right)
+            })
             .collect();
         edges.sort_unstable_by_key(|edge| edge.left);
         Self {
@@ -230,11 +233,13 @@ fn smooth_triangles(whole: &Whole<'_>, pairs: &[(Half, Option<Half>)]) -> Vec<bo
         .collect()
 }
 
-/// What makes an edge a line; `None` for the smooth ones inside of a surface.
+/// What makes an edge a line; `None` for the smooth ones inside of a surface. If that `deforms`,
+/// its planes may turn away where its normals do not, so that any edge can be an outline.
 fn line_edge(
     whole: &Whole<'_>,
     line_ids: &[u32],
     is_smooth: &[bool],
+    deforms: bool,
     left: Half,
     right: Option<Half>,
 ) -> Option<LineEdge> {
@@ -274,7 +279,8 @@ fn line_edge(
     // Coplanar faces turn away together.
     let folds = edge.is_flat.contains(&true)
         && whole.face(left).cross(whole.face(right)).length() > COPLANAR_SINE;
-    (edge.is_hard || folds || edge.is_material || edge.is_user || edge.is_uv_seam).then_some(edge)
+    let is_line = edge.is_hard || folds || edge.is_material || edge.is_user || edge.is_uv_seam;
+    (is_line || deforms).then_some(edge)
 }
 
 /// For each vertex the first one at the same place with the same bones: split normals, UV seams
