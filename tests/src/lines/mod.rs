@@ -8,6 +8,7 @@ pub mod capsules;
 pub mod cuts;
 pub mod expected;
 pub mod figures;
+pub mod holes;
 pub mod ink;
 pub mod motion;
 pub mod outline;

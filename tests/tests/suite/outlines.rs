@@ -2,11 +2,13 @@
 
 use std::collections::VecDeque;
 
-use genga::render::{Orbit, Picture};
+use genga::render::{LayerKind, Orbit, Picture, View};
 use genga::scene::{Scene, Transform};
 use genga::shapes;
-use genga_tests::scenes::{Builder, orbit_view, parts, style};
-use genga_tests::{Pixels, draw};
+use genga_tests::lines::figures::contour_style;
+use genga_tests::lines::holes::holes;
+use genga_tests::scenes::{Builder, model, orbit_view, parts, style};
+use genga_tests::{Pixels, draw, draw_layers};
 use glam::{Quat, Vec3};
 
 fn object(primitive: genga::scene::Primitive, transform: Transform) -> Scene {
@@ -147,4 +149,34 @@ fn a_hull_without_width_fills_nothing() {
          [[override]]\nlines.width = 0",
     );
     assert_eq!(draw(&scene, &style, &orbit_view(&scene, &orbit, [128, 128])), plain);
+}
+
+/// Bodies whose outline is not where their normals turn away: bent ones, and coarse ones with
+/// faces that are nearly in one plane.
+#[test]
+fn contour_leaves_no_holes_in_outlines() {
+    let twisted = {
+        let mut bar = shapes::cylinder(7, 0.4, 1.2);
+        // Shaded as one surface, as coarse models are, and no longer of plane sides.
+        for (p, n) in bar.positions.iter_mut().zip(&mut bar.normals) {
+            *p = Quat::from_rotation_y(0.012 * p.y) * *p;
+            *n = Vec3::new(p.x, 0.8 * p.y, p.z).normalize();
+        }
+        object(bar, Transform::default())
+    };
+    for (name, scene) in [("hero", model("hero")), ("bar", twisted)] {
+        for i in 0..8_u8 {
+            let orbit = Orbit {
+                azimuth_deg: 45.0 * f32::from(i) + 30.0,
+                elevation_deg: 7.5 * f32::from(i % 3),
+                ..Orbit::default()
+            };
+            let view = View { supersample: 1, ..orbit_view(&scene, &orbit, [320, 240]) };
+            let layers = [LayerKind::Lines, LayerKind::Depth];
+            let picture = draw_layers(&scene, &contour_style(2.0, 240, ""), &view, &layers);
+            let holes = holes(&picture);
+            let worst = holes.iter().max_by_key(|hole| hole.extent());
+            assert!(worst.is_none_or(|hole| hole.extent() <= 2), "{name}, camera {i}: {worst:?}");
+        }
+    }
 }
