@@ -354,6 +354,21 @@ fn marks_that_fit_nothing_are_told() {
 }
 
 #[test]
+fn a_beam_between_equal_places_is_told() {
+    let at_one_place =
+        BeamShape::Path { points: vec![Vec3::X; 2], is_bezier: false, radius: [0.1; 2] };
+    for (shape, is_told) in [(at_one_place, true), (Beam::default().shape, false)] {
+        let mut scene = Scene::default();
+        scene.beams.push(Beam { shape, ..Beam::default() });
+        let shared = shared();
+        let _turn = shared.turn();
+        let prepared = shared.renderer.prepare(&scene, &style(UNLINED)).expect("it can be drawn");
+        let told = prepared.warnings().iter().any(|w| w.contains("at one place"));
+        assert_eq!(told, is_told, "{:?}", prepared.warnings());
+    }
+}
+
+#[test]
 fn waves_of_a_rank_are_added_to_its_beams() {
     let view = ortho_view([256, 128], 2.0);
     let at = |beam: BeamOrder, wave: Option<WaveOrder>| {

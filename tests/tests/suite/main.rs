@@ -23,5 +23,6 @@ mod shading;
 mod shadows;
 mod shine;
 mod snapshots;
+mod stipple;
 mod transparency;
 mod waves;

@@ -5,7 +5,7 @@ use super::gpu::bindings::{Binding as B, layout};
 /// See `shaders/lib/bindings.wesl` and the headers of the passes.
 pub(crate) struct Layouts {
     /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures,
-    /// shadow maps, the draw's number.
+    /// shadow maps, the draw's number, places of stipple.
     pub(crate) surface: wgpu::BindGroupLayout,
     /// Group 1 of passes that draw surfaces: base colour, emissive, ids, hatching.
     pub(crate) material: wgpu::BindGroupLayout,
@@ -25,7 +25,7 @@ pub(crate) struct Layouts {
     pub(crate) lines: wgpu::BindGroupLayout,
     /// Group 0 of `strokes`: frame, depth, ids, curves.
     pub(crate) strokes: wgpu::BindGroupLayout,
-    /// Group 1 of `strokes`: pieces, states, links, ranks, places.
+    /// Group 1 of `strokes`: pieces, states, links, ranks, places, marks.
     pub(crate) linked: wgpu::BindGroupLayout,
     /// Group 0 of `reference`: frame, draws, mask.
     pub(crate) reference: wgpu::BindGroupLayout,
@@ -53,6 +53,7 @@ impl Layouts {
                     (8, B::NearestSampler),
                     (9, B::Uniform),
                     (10, B::DynamicUniform),
+                    (11, B::Uint),
                 ],
             ),
             material: layout(
@@ -77,7 +78,7 @@ impl Layouts {
                 S::FRAGMENT,
                 &[
                     (0, B::DynamicUniform),
-                    (1, B::FilteredLayers),
+                    (1, B::UintLayers),
                     (2, B::FilteredLayers),
                     (3, B::FilteredLayers),
                     (4, B::Sampler),
@@ -150,6 +151,7 @@ impl Layouts {
                     (2, B::Storage),
                     (3, B::Storage),
                     (4, B::Storage),
+                    (5, B::Storage),
                 ],
             ),
             reference: layout(

@@ -45,6 +45,12 @@ impl Beam {
         mesh
     }
 
+    /// Whether it is a path that nothing can be seen of, as all of it is at one place.
+    pub(crate) fn has_no_length(&self, pose: &Pose) -> bool {
+        let whole = Self { growth: [0.0, 1.0], ..self.clone() };
+        matches!(self.shape, BeamShape::Path { .. }) && whole.path(pose).is_empty()
+    }
+
     /// The part of the path that is there, in world space: at least 2 places, or none. The middle
     /// for what has no path.
     pub(crate) fn path(&self, pose: &Pose) -> Vec<Vec3> {

@@ -338,6 +338,9 @@ impl Written {
         let path =
             |points: Vec<Vec3>, is_bezier| BeamShape::Path { points, is_bezier, radius: ends(0.1) };
         let points = || match &self.points {
+            Some(points) if points.len() > 1 && points.iter().all(|p| *p == points[0]) => {
+                Err("must have 'points' at more than one place".to_owned())
+            }
             Some(points) => Ok(points.iter().map(|&p| Vec3::from(p)).collect::<Vec<_>>()),
             None => Err("must have 'points'".to_owned()),
         };

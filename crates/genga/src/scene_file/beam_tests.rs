@@ -85,3 +85,10 @@ fn a_beam_without_its_node_is_an_error_at_its_place() {
         assert!(error.to_string().contains("did you mean"), "{error}");
     }
 }
+
+#[test]
+fn a_beam_whose_points_are_one_place_is_an_error() {
+    let text = "version = 1\n[[beam]]\nshape = \"polyline\"\npoints = [[1, 2, 3], [1, 2, 3]]\n";
+    let error = SceneFile::from_toml_str(text).expect_err("nothing could be seen of it");
+    assert!(error.to_string().contains("at more than one place"), "{error}");
+}

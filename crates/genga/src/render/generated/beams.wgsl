@@ -123,15 +123,10 @@ fn beam_ramp(beam: Beam, t: f32, width: f32) -> vec4f {
     for (var i = 1; i < 8; i++) {
         let both = beam.places[i / 2];
         let place = select(both.xy, both.zw, (i & 1) != 0);
-        var weight: f32;
-        if (is_smooth) {
-            weight = saturate((t - previous_at) / max(place.x - previous_at, 1e-6));
-        }
-        else {
-            weight = saturate((t - place.x) / max(max(place.y, width), MIN_WIDTH) + 0.5);
-            weight = select(weight, weight * weight * (3.0 - 2.0 * weight), place.y > width);
-        }
-        color = mix(color, beam.tones[i], weight);
+        let gradual = saturate((t - previous_at) / max(place.x - previous_at, 1e-6));
+        let edge = saturate((t - place.x) / max(max(place.y, width), MIN_WIDTH) + 0.5);
+        let hard = select(edge, edge * edge * (3.0 - 2.0 * edge), place.y > width);
+        color = mix(color, beam.tones[i], select(hard, gradual, is_smooth));
         previous_at = place.x;
     }
     return color;
@@ -191,10 +186,7 @@ fn beam_fragment(in: BeamPoint) -> @location(0) vec4f {
 
 @fragment
 fn beam_over_fragment(in: BeamPoint) -> OverLines {
-    var depth = in.clip.z;
-    if ((beam.flags & BEAM_BEFORE_ALL) != 0u) {
-        depth = 1.0;
-    }
+    let depth = select(in.clip.z, 1.0, (beam.flags & BEAM_BEFORE_ALL) != 0u);
     let hides = select(0.0, 1.0, (beam.flags & BEAM_HIDES) != 0u);
     return OverLines(beam_color(in), vec4f(distance_from_depth(frame, depth), hides, 0.0, 1.0));
 }
@@ -202,8 +194,6 @@ fn beam_over_fragment(in: BeamPoint) -> OverLines {
 @vertex
 fn beam_vertex(@location(0) p_in_world: vec3f, @location(1) normal: u32) -> BeamPoint {
     var clip = viewport_clip(frame, frame.clip_from_world * vec4f(p_in_world, 1.0), frame.paint_scale);
-    if ((beam.flags & BEAM_BEFORE_ALL) != 0u) {
-        clip.z = mix(clip.z, clip.w, BEFORE_ALL);
-    }
+    clip.z = mix(clip.z, clip.w, select(0.0, BEFORE_ALL, (beam.flags & BEAM_BEFORE_ALL) != 0u));
     return BeamPoint(clip, p_in_world, octahedral_unpack(normal));
 }

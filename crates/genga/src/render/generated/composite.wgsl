@@ -158,12 +158,11 @@ struct PaletteColor {
     lab: vec4f
 }
 
-fn beams_at(frame: Frame, pixel: vec2i) -> BeamPixel {
+fn beams_at(frame: Frame, pixel: vec2i, scale: i32) -> BeamPixel {
     var result = BeamPixel(vec4f(0.0), vec4f(0.0), vec4f(0.0), 0.0, false);
-    if (!has_beams || (frame.flags & FRAME_SHOW_BEAMS) == 0u) {
+    if (!has_beams) {
         return result;
     }
-    let scale = i32(frame.paint_scale);
     var place = vec4f(0.0);
     for (var y = 0; y < scale; y++) {
         for (var x = 0; x < scale; x++) {
@@ -174,7 +173,9 @@ fn beams_at(frame: Frame, pixel: vec2i) -> BeamPixel {
             place += textureLoad(beam_places, texel, 0);
         }
     }
-    let part = 1.0 / f32(scale * scale);
+    let shown = select(0.0, 1.0, (frame.flags & FRAME_SHOW_BEAMS) != 0u);
+    let part = shown / f32(scale * scale);
+    place *= shown;
     result.under *= part;
     result.through *= part;
     result.over *= part;
@@ -350,7 +351,7 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     let under = glow_of(GLOW_UNDER, pixel, LINEAR_BLEND);
     let through = glow_of(GLOW_LINES_THROUGH, pixel, LINEAR_BLEND);
     let above = glow_of(GLOW_OVER, pixel, LINEAR_BLEND);
-    let beams = beams_at(frame, pixel);
+    let beams = beams_at(frame, pixel, PAINT_SCALE);
     let shows_paint = (frame.flags & FRAME_SHOW_PAINT) != 0u;
     if (has_beams) {
         var shown = beams.under;

@@ -9,6 +9,9 @@ var<storage, read> draws: array<Draw>;
 @group(0) @binding(10)
 var<uniform> drawn: DrawNumber;
 
+@group(0) @binding(11)
+var stipple_points: texture_2d<u32>;
+
 @group(0) @binding(2)
 var<storage, read> looks: array<Look>;
 
@@ -64,7 +67,7 @@ var shade_sampler: sampler;
 var<uniform> highlights: HighlightBlock;
 
 @group(2) @binding(1)
-var drawings: texture_2d_array<f32>;
+var drawings: texture_2d_array<u32>;
 
 @group(2) @binding(2)
 var masks: texture_2d_array<f32>;
@@ -86,7 +89,11 @@ const BLACK: f32 = 1.3;
 
 const BORDER: f32 = 0.03;
 
+const CELLS: f32 = 30.0;
+
 const CLEARANCE: f32 = 4.0;
+
+const COARSE: f32 = 576.0;
 
 const DEPTH_OFFSET: f32 = 1.0;
 
@@ -104,6 +111,8 @@ const FAR_OUTSIDE: f32 = 10000.0;
 
 const FIELD_EXTENT: f32 = 1.25;
 
+const FIELD_SIZE: f32 = 512.0;
+
 const FRAME_LINEAR_BLEND: u32 = 1u;
 
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
@@ -113,6 +122,10 @@ const GAP: f32 = 0.015;
 const GAP_JITTER: f32 = 0.03;
 
 const GRAZING: f32 = 0.35;
+
+const GROWTH: f32 = 0.15;
+
+const HANDED_OVER: f32 = 0.16;
 
 const HATCH_BY_LIGHT: u32 = 1u;
 
@@ -208,6 +221,8 @@ const SHINE_PAPER: u32 = 4u;
 
 const SHINE_REPLACE: u32 = 2u;
 
+const STEPS: f32 = 17.0;
+
 const TABLE_DARKEST: f32 = 1.5;
 
 const TABLE_STEPS: vec2f = vec2f(32.0, 8.0);
@@ -215,6 +230,8 @@ const TABLE_STEPS: vec2f = vec2f(32.0, 8.0);
 const TAPER: f32 = 0.12;
 
 const TAU: f32 = 6.2831853;
+
+const TURN: f32 = 0.08;
 
 struct Axes {
     best: vec3f,
@@ -685,10 +702,15 @@ fn any_across(n: vec3f) -> vec3f {
     return select(vec3f(0.0, n.z, -n.y), vec3f(-n.z, 0.0, n.x), abs(n.x) > 0.7);
 }
 
-fn axis_along(at: Frames, axis: vec3f) -> vec3f {
-    let u = axis_side(axis);
-    let v = cross(axis, u);
-    return select(v, u, abs(dot(u, at.along)) > abs(dot(v, at.along)));
+fn area_for(h: f32, m: f32) -> f32 {
+    let square = 0.55;
+    let cube = 0.47 * (1.0 - m) * min(10.0 * m, 1.0);
+    var a = 2.0 * h / (1.0 + sqrt(1.0 + 4.0 * square * h));
+    for (var i = 0u; i < 3u; i++) {
+        let error = a + a * a * (square + a * cube) - h;
+        a -= error / (1.0 + a * (2.0 * square + 3.0 * a * cube));
+    }
+    return a;
 }
 
 fn axis_side(axis: vec3f) -> vec3f {
@@ -755,8 +777,7 @@ fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
 
 fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
     let u = drawing_coordinates(i, reflected);
-    let uv = u * vec2f(0.5, -0.5) / FIELD_EXTENT + 0.5;
-    let inside = textureSampleLevel(drawings, clamped, uv, highlights.items[i].drawing, 0.0).x;
+    let inside = field_distance(highlights.items[i].drawing, u);
     let beyond = max(max(abs(u.x), abs(u.y)) - FIELD_EXTENT, 0.0);
     return vec3f(u, min(inside + beyond, FAR_OUTSIDE));
 }
@@ -764,6 +785,18 @@ fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
     let outwards = unit(in.normal);
     return select(-outwards, outwards, front_facing);
+}
+
+fn field_distance(layer: u32, u: vec2f) -> f32 {
+    let at = u * vec2f(0.5, -0.5) * (FIELD_SIZE / FIELD_EXTENT) + 0.5 * FIELD_SIZE - 0.5;
+    let inside = clamp(at, vec2f(0.0), vec2f(FIELD_SIZE - 1.0));
+    let texel = vec2u(inside);
+    let part = inside - vec2f(texel);
+    let below = min(texel.y + 1u, u32(FIELD_SIZE) - 1u);
+    let upper = unpack2x16snorm(textureLoad(drawings, texel, layer, 0).x);
+    let lower = unpack2x16snorm(textureLoad(drawings, vec2u(texel.x, below), layer, 0).x);
+    let both = mix(upper, lower, part.y);
+    return mix(both.x, both.y, part.x);
 }
 
 fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32, salt: u32) -> f32 {
@@ -1235,16 +1268,11 @@ fn marks(look: u32, pen: Pen, point: HatchPoint, pattern: u32) -> f32 {
     var ink = 0.0;
     if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
         let at = frames(look, point);
-        let axes = nearest_axes(at.across);
-        let along = axis_along(at, axes.best);
-        let p = vec2f(dot(along, point.rest), dot(axes.best, point.rest));
-        let dx = vec2f(dot(along, at.right), dot(axes.best, at.right));
-        let dy = vec2f(dot(along, at.up), dot(axes.best, at.up));
         if (HATCH_HAS_STIPPLE && pattern == HATCH_STIPPLE) {
-            ink = points(pen, p.y, p.x, vec2f(length(vec2f(dx.y, dy.y)), length(vec2f(dx.x, dy.x))), 1.0, 0u);
+            ink = surface_points(pen, point.rest, unit(point.rest_normal), at.right, at.up);
         }
         if (HATCH_HAS_IMAGE && pattern == HATCH_IMAGE) {
-            ink = image_ink(pen, p, dx, dy);
+            ink = surface_picture(pen, at, point.rest);
         }
     }
     if (HATCH_HAS_PLANE && looks[look].hatch.mapping != HATCH_ON_SURFACE) {
@@ -1258,7 +1286,7 @@ fn marks(look: u32, pen: Pen, point: HatchPoint, pattern: u32) -> f32 {
         let dx = vec2f(dot(turn, right), dot(side, right));
         let dy = vec2f(dot(turn, down), dot(side, down));
         if (HATCH_HAS_STIPPLE && pattern == HATCH_STIPPLE) {
-            ink = points(pen, p.y, p.x, vec2f(length(vec2f(dx.y, dy.y)), length(vec2f(dx.x, dy.x))), 1.0, 0u);
+            ink = max(points(pen, p, dx, dy, 1.0), saturate((pen.darkness - 1.0) * 8.0));
         }
         if (HATCH_HAS_IMAGE && pattern == HATCH_IMAGE) {
             ink = image_ink(pen, p, dx, dy);
@@ -1397,29 +1425,59 @@ fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, s
     return strokes(pen, dot(axis, rest), slope, ways, share, salt ^ bitcast<u32>(dot(axis, vec3f(1.0, 3.0, 9.0))));
 }
 
-fn points(pen: Pen, across: f32, along: f32, slopes: vec2f, share: f32, salt: u32) -> f32 {
-    let x = octave(across, slopes.x * pen.spacing);
-    let y = octave(along, slopes.y * pen.spacing);
-    let seed = pen.seed ^ salt ^ 2146121005u;
-    let grown_x = vec2f(x.size, 2.0 - x.size);
-    let grown_y = vec2f(y.size, 2.0 - y.size);
-    let size = vec2f(x.size, y.size) / pen.spacing;
-    let scale = 1.0 / size;
-    let tone = saturate(pen.darkness);
-    let area = share * tone * (1.0 + 0.35 * tone) * scale.x * scale.y;
-    var ink = 0.0;
-    for (var i = 0u; i < 4u; i++) {
-        let odd_x = (i & 1u) != 0u;
-        let odd_y = (i & 2u) != 0u;
-        let node = vec2f(select(x.even, x.odd, odd_x), select(y.even, y.odd, odd_y));
-        let own = hatch_hash(node.x * x.period, node.y * y.period, seed);
-        let place = node + (0.1 + 0.32 * pen.irregularity) * own.xy;
-        let d = length((vec2f(x.x, y.x) - place) * scale);
-        let grown = select(grown_x.x, grown_x.y, odd_x) * select(grown_y.x, grown_y.y, odd_y);
-        let radius = sqrt(area * grown * 0.3183 * (1.0 + 0.6 * pen.irregularity * own.z));
-        ink = max(ink, saturate((radius - d) / pen.texel + 0.5) * saturate(2.0 * radius / pen.texel));
+fn points(pen: Pen, at: vec2f, at_dx: vec2f, at_dy: vec2f, share: f32) -> f32 {
+    let is_turned = (pen.seed & 1u) != 0u;
+    let way = select(vec2f(1.0), vec2f(-1.0), vec2<bool>((pen.seed & 2u) != 0u, (pen.seed & 4u) != 0u));
+    let p = way * select(at, at.yx, is_turned);
+    let dx = way * select(at_dx, at_dx.yx, is_turned);
+    let dy = way * select(at_dy, at_dy.yx, is_turned);
+    let tone = clamp(pen.darkness, 0.0, 0.985);
+    let h = -share * log(1.0 - tone);
+    let dense = share * max(6.5 * tone / (1.0 + 2.2 * tone), 0.05);
+    let area = max(abs(dx.x * dy.y - dx.y * dy.x), 1e-36);
+    let side = clamp(sqrt(COARSE / dense * area) * pen.spacing, 1e-16, 1e16);
+    let bits = bitcast<u32>(side);
+    let period = bitcast<f32>((bits & 2139095040u) + 8388608u);
+    let scale = CELLS / period;
+    let u = dx * scale;
+    let v = dy * scale;
+    let xx = u.x * u.x + v.x * v.x;
+    let xy = u.x * u.y + v.x * v.y;
+    let yy = u.y * u.y + v.y * v.y;
+    let mean = 0.5 * (xx + yy);
+    let half_difference = sqrt(max(mean * mean - (xx * yy - xy * xy), 0.0));
+    let even = sqrt(max(xx * yy - xy * xy, 1e-30));
+    let longer = (mean + half_difference) / even;
+    let times = period / side;
+    let m = saturate((times * times - 1.0) / 3.0);
+    let come = reached(m);
+    let a = area_for(h * (1.0 + 0.18 * tone * (min(longer, 2.0) - 1.0)), m);
+    let radius = sqrt(a / (3.14159265 * dense)) * pen.spacing;
+    let longest = clamp(0.64 / max(radius * radius * even, 1e-12), 1.0, 16.0);
+    let stretch = min(longer, longest);
+    let kept = select(0.5 * even * (stretch - 1.0 / stretch) / half_difference, 0.0, half_difference < 0.0001 * even);
+    let moved = 0.5 * even * (stretch + 1.0 / stretch) - kept * mean;
+    let inverse = vec3f(kept * yy + moved, -kept * xy, kept * xx + moved) / (even * even);
+    let place = clamp(p * scale, vec2f(-8000000.0), vec2f(8000000.0));
+    let first = floor(place);
+    let inside = place - first;
+    var ink = vec4f(0.0);
+    for (var i = 0u; i < 9u; i++) {
+        let step = vec2f(f32(i % 3u), f32(i / 3u)) - 1.0;
+        let cell = first + step;
+        let texel = textureLoad(stipple_points, vec2i(cell - CELLS * floor(cell / CELLS)), 0);
+        let x = step.x - inside.x + vec4f(texel & vec4u(31u)) / STEPS;
+        let y = step.y - inside.y + vec4f((texel >> vec4u(5u)) & vec4u(31u)) / STEPS;
+        let when = vec4f((texel >> vec4u(10u)) & vec4u(255u));
+        let size = vec4f((texel >> vec4u(18u)) & vec4u(255u)) / 255.0 - 0.5;
+        let grown = select(saturate((come - (when - 1.0) / 255.0) / GROWTH), vec4f(1.0), when == vec4f(0.0));
+        let r = radius * sqrt(grown * (1.0 + pen.irregularity * size));
+        let d = sqrt(max(inverse.x * x * x + 2.0 * inverse.y * x * y + inverse.z * y * y, vec4f(0.0)));
+        let dark = saturate((r - d) / pen.texel + 0.5) * saturate(2.0 * r / pen.texel);
+        ink = max(ink, select(vec4f(0.0), dark, texel != vec4u(0u)));
     }
-    return max(ink, saturate((pen.darkness - 1.0) * 8.0));
+    let most = max(max(ink.x, ink.y), max(ink.z, ink.w));
+    return select(most, 0.0, pen.darkness <= 0.0 || area <= 1e-36);
 }
 
 fn printed_color(color: vec3f, p_px: vec2f) -> vec3f {
@@ -1490,6 +1548,12 @@ fn ranked(keys: vec2u, nearness: f32, number: u32) -> vec2u {
     return vec2u(max(keys.x, key), max(keys.y, min(keys.x, key)));
 }
 
+fn reached(m: f32) -> f32 {
+    let few = sqrt(2.0 * GROWTH * m);
+    let many = 1.0 + GROWTH - sqrt(2.0 * GROWTH * max(1.0 - m, 0.0));
+    return select(select(m + 0.5 * GROWTH, many, m > 1.0 - 0.5 * GROWTH), few, m < 0.5 * GROWTH);
+}
+
 fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
     let px = dpdx(p_in_world);
     let py = dpdy(p_in_world);
@@ -1505,7 +1569,22 @@ fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
-    var n = proxy_normal(i, seen_point(i, p_in_world, to_eye));
+    var seen = p_in_world;
+    if (HAS_BALL) {
+        let radius = highlights.items[i].radius;
+        let q = p_in_world - highlights.items[i].center;
+        let along = dot(q, to_eye);
+        let off_squared = dot(q, q) - along * along;
+        let met = sqrt(max(radius * radius - off_squared, 0.0));
+        let n_dot_eye = select(along, met, radius > 0.0);
+        if (!BLENDS_NORMALS && !HAS_MATRIX && !HAS_AXIS) {
+            let n_squared = off_squared + n_dot_eye * n_dot_eye;
+            let by_eye = 2.0 * n_dot_eye * (n_dot_eye - along) - n_squared;
+            return vec4f(2.0 * n_dot_eye * q + by_eye * to_eye, n_squared);
+        }
+        seen += to_eye * (n_dot_eye - along);
+    }
+    var n = proxy_normal(i, seen);
     if (BLENDS_NORMALS) {
         let gamma = highlights.items[i].gamma;
         n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
@@ -1554,18 +1633,6 @@ fn screen_dots(look: u32, darkness: f32, pixel: vec2f) -> f32 {
     let texel = 1.0 / (frame.paint_scale * cell);
     let d = length(q - round(q));
     return saturate((radius - d) / texel + 0.5) * saturate(part * 50.0);
-}
-
-fn seen_point(i: u32, p_in_world: vec3f, to_eye: vec3f) -> vec3f {
-    if (!HAS_BALL) {
-        return p_in_world;
-    }
-    let radius = highlights.items[i].radius;
-    let q = p_in_world - highlights.items[i].center;
-    let along = dot(q, to_eye);
-    let inside = along * along - dot(q, q) + radius * radius;
-    let moved = p_in_world + to_eye * (sqrt(max(inside, 0.0)) - along);
-    return select(p_in_world, moved, radius > 0.0);
 }
 
 fn shade(in: Surface, front_facing: bool) -> Shaded {
@@ -1887,6 +1954,50 @@ fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
 
 fn surface_of(in: HatchedSurface) -> Surface {
     return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.marks, in.line_id, in.face);
+}
+
+fn surface_picture(pen: Pen, at: Frames, rest: vec3f) -> f32 {
+    let axes = nearest_axes(at.across);
+    let first = min(0.5 + 0.5 * axes.lead / BORDER, 1.0);
+    let tone = saturate(pen.darkness);
+    var open = 1.0;
+    for (var i = 0u; i < select(1u, 2u, first < 1.0); i++) {
+        let axis = select(axes.best, axes.second, i == 1u);
+        let side = axis_side(axis);
+        let other = cross(axis, side);
+        let lead = abs(dot(side, at.along)) - abs(dot(other, at.along));
+        let better = min(0.5 + 0.5 * abs(lead) / TURN, 1.0);
+        for (var j = 0u; j < select(1u, 2u, better < 1.0); j++) {
+            let along = select(other, side, (lead > 0.0) != (j == 1u));
+            let share = select(first, 1.0 - first, i == 1u) * select(better, 1.0 - better, j == 1u);
+            var part = pen;
+            part.darkness = 1.0 - pow(1.0 - tone, share);
+            open *= 1.0 - image_ink(part, vec2f(dot(along, rest), dot(axis, rest)), vec2f(dot(along, at.right), dot(axis, at.right)), vec2f(dot(along, at.up), dot(axis, at.up)));
+        }
+    }
+    return 1.0 - open;
+}
+
+fn surface_points(pen: Pen, rest: vec3f, normal: vec3f, right: vec3f, up: vec3f) -> f32 {
+    let facing = abs(normal);
+    let greatest = max(facing.x, max(facing.y, facing.z));
+    var shares = saturate((facing - greatest) / HANDED_OVER + 1.0);
+    shares /= shares.x + shares.y + shares.z;
+    var open = 1.0;
+    for (var i = 0u; i < 3u; i++) {
+        let most = max(shares.x, max(shares.y, shares.z));
+        if (most < 0.002) {
+            break;
+        }
+        let on_x = shares.x == most;
+        let on_y = !on_x && shares.y == most;
+        let p = select(select(rest.xy, rest.zx, on_y), rest.yz, on_x);
+        let dx = select(select(right.xy, right.zx, on_y), right.yz, on_x);
+        let dy = select(select(up.xy, up.zx, on_y), up.yz, on_x);
+        open *= 1.0 - points(pen, p, dx, dy, most);
+        shares = select(shares, vec3f(0.0), vec3<bool>(on_x, on_y, !(on_x || on_y)));
+    }
+    return max(1.0 - open, saturate((pen.darkness - 1.0) * 8.0));
 }
 
 fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> f32 {

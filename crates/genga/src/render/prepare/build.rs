@@ -17,6 +17,7 @@ use super::{
     shading::{Shadings, shading_of},
     shadows::{self, Shadows},
     speed_lines::SpeedLineData,
+    stipple,
     strokes::{self, StrokeData},
     textures::Textures,
     waves::WaveData,
@@ -367,6 +368,7 @@ impl<'a> Builder<'a> {
         let resolution = self.style.paint.shadow.resolution;
         let shadows = Shadows::new(device, queue, self.layouts, &draw_data, wanted, resolution);
         let shadings = Shadings::new(device, queue, self.scene);
+        let stipple = stipple::texture(device, queue, self.looks.have_stipple());
         let numbers = drawn::numbers(device, queue, &self.draw_values);
         let surface_group = bindings::group(
             device,
@@ -384,6 +386,7 @@ impl<'a> Builder<'a> {
                 (8, wgpu::BindingResource::Sampler(&shadows.nearest)),
                 (9, shadings.values.as_entire_binding()),
                 (10, dynamic_binding::<gpu::DrawNumber>(&numbers)),
+                (11, wgpu::BindingResource::TextureView(&stipple)),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -414,6 +417,13 @@ impl<'a> Builder<'a> {
                 warnings.push(format!(
                     "beam {i} '{}' marks no surface: no object and material has such names, or a \
                      later one has them all",
+                    beam.name
+                ));
+            }
+            if beam.has_no_length(pose) {
+                warnings.push(format!(
+                    "beam {i} '{}' is not drawn: in this pose its points, or what it goes between, are \
+                     at one place",
                     beam.name
                 ));
             }

@@ -121,6 +121,11 @@ impl<'a> Looks<'a> {
         }
     }
 
+    /// Whether any look so far has stipple.
+    pub(crate) fn have_stipple(&self) -> bool {
+        self.looks.iter().any(|look| look.hatch.pattern == gpu::HATCH_STIPPLE)
+    }
+
     /// The looks of one object's part of one material.
     pub(crate) fn range(&mut self, object: &str, material: &str) -> LookRange {
         let style = self.style;

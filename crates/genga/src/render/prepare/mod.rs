@@ -14,6 +14,7 @@ pub(crate) mod shading;
 pub(crate) mod shadows;
 pub(crate) mod shine;
 pub(crate) mod speed_lines;
+mod stipple;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
