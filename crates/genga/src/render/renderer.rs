@@ -363,7 +363,8 @@ impl Renderer {
         let Some(waves) = &targets.waves else { return };
         let pass = self.waves.get_or_init(|| WavePass::new(&self.device));
         self.write_wave_view(prepared, view, tile, waves);
-        let kind = prepared.waves.exact_kind(view, projected, output.energy);
+        let is_wanted = (!prepared.draws.is_empty(), output.energy);
+        let kind = prepared.waves.exact_kind(view, projected, is_wanted);
         pass.run(&self.device, encoder, (prepared, kind), (targets, waves), timer);
     }
 

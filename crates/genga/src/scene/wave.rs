@@ -25,7 +25,8 @@ pub struct Wave {
     /// Factors on α along the curve: (s from 0 to 1, factor ≥ 0), s rising, linear in between.
     /// Empty for 1 everywhere.
     pub profile: Vec<[f32; 2]>,
-    /// ε: half width of the soft core in metres, ≥ 0. It is at least half a pixel.
+    /// ε: half width of the soft core in metres, ≥ 0. It is at least half a pixel, before the near
+    /// plane half a pixel of that.
     pub core: f32,
     /// R: the glow ends there, in metres, > 0; `None` for a glow without an end.
     pub radius: Option<f32>,

@@ -290,7 +290,8 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
         let weights = place.w * fading(wave, ray.middle + t0, ray.middle + t1);
         let a = away + (t0 - nearest) * ray.direction;
         let b = away + (t1 - nearest) * ray.direction;
-        energy += piece_energy(a, b, weights, t1 - t0, core2, rim);
+        let squares = vec3f(dot(a, a), dot(b, b), (t1 - t0) * (t1 - t0));
+        energy += piece_energy(squares, dot(a, b), away2 * squares.z, weights, t1 - t0, core2, rim);
         t0 = t1;
     }
     return energy;
@@ -457,7 +458,7 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
     let e1 = ray.direction.yz - slope * ray.direction.x;
     let start = e0 + range.x * e1;
     if (radius > 0.0) {
-        let part = within_radius(vec3f(0.0, start), vec3f(0.0, e1 * (range.y - range.x)), radius + 0.7 * bend);
+        let part = within_radius(start, e1 * (range.y - range.x), radius + 0.7 * bend);
         range = vec2f(mix(range.x, range.y, part.x), mix(range.x, range.y, part.y));
         if (part.x >= part.y) {
             return 0.0;
@@ -473,14 +474,16 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
     let growth = core_growth(wave, ray, range, distance);
     let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 0.8 * growth * inverseSqrt(wave.tolerance)));
     let cuts = ceil(clamp(wanted, 1.0, MAX_CUTS));
+    let longer = select(1.0, exp(growth / cuts), core_grows && growth > 0.2);
+    var step = span / cuts;
+    if (longer > 1.0) {
+        step = span * (longer - 1.0) / (exp(growth) - 1.0);
+    }
     var energy = 0.0;
     var t0 = range.x;
     for (var i = 1.0; i <= cuts; i += 1.0) {
-        var part_of_range = i / cuts;
-        if (core_grows && growth > 0.2) {
-            part_of_range = (exp(growth * part_of_range) - 1.0) / (exp(growth) - 1.0);
-        }
-        let t1 = mix(range.x, range.y, part_of_range);
+        let t1 = select(t0 + step, range.y, i == cuts);
+        step *= longer;
         var core = nearest_core;
         if (core_grows) {
             let middle = 0.5 * (t0 + t1);
@@ -493,18 +496,24 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
         let sag = (xi.y - xi.x) * (xi.y - xi.x) * (1.0 / 6.0);
         let c0 = vec2f(ny.x + xi.x * (ny.y + xi.x * ny.z) - sag * ny.z, nz.x + xi.x * (nz.y + xi.x * nz.z) - sag * nz.z);
         let c1 = vec2f(ny.x + xi.y * (ny.y + xi.y * ny.z) - sag * ny.z, nz.x + xi.y * (nz.y + xi.y * nz.z) - sag * nz.z);
-        let a = vec3f(0.0, ray.origin.yz + t0 * ray.direction.yz - c0);
-        let b = vec3f(0.0, ray.origin.yz + t1 * ray.direction.yz - c1);
+        let start = ray.origin.yz + t0 * ray.direction.yz - c0;
+        let change = ray.origin.yz + t1 * ray.direction.yz - c1 - start;
         var part = vec2f(0.0, 1.0);
         if (radius > 0.0) {
-            part = within_radius(a, b - a, radius);
+            part = within_radius(start, change, radius);
         }
         if (part.x < part.y) {
             let t = mix(vec2f(t0), vec2f(t1), part);
             let xs = mix(vec2f(xi.x), vec2f(xi.y), part) * 0.5 + 0.5;
             let alpha = mix(vec2f(nx.z), vec2f(nx.w), xs);
             let weights = alpha * fading(wave, ray.middle + t.x, ray.middle + t.y);
-            energy += piece_energy(mix(a, b, part.x), mix(a, b, part.y), weights, t.y - t.x, core2, rim);
+            let a = start + part.x * change;
+            let b = start + part.y * change;
+            let side = start.x * change.y - start.y * change.x;
+            let share = part.y - part.x;
+            let squares = vec3f(dot(a, a), dot(b, b), share * share * dot(change, change));
+            let side2 = side * side * share * share;
+            energy += piece_energy(squares, dot(a, b), side2, weights, t.y - t.x, core2, rim);
         }
         t0 = t1;
     }
@@ -596,26 +605,25 @@ fn patch_ray(square: u32, ray: u32) -> ViewRay {
     return view_ray(vec2f(corner) + f32(level.side) * (0.5 + 0.5 * place));
 }
 
-fn piece_energy(a: vec3f, b: vec3f, weights: vec2f, length: f32, core2: f32, rim: f32) -> f32 {
-    let ra = sqrt(dot(a, a) + core2);
-    let rb = sqrt(dot(b, b) + core2);
-    let sum = ra + rb;
-    let change = b - a;
-    let change2 = dot(change, change);
-    let x2 = change2 / (sum * sum);
-    let c = dot(a, b) + core2;
-    let side = cross(a, change);
-    let k = select((dot(side, side) + core2 * change2) / (ra * rb - c), ra * rb + c, c >= 0.0);
+fn piece_energy(squares: vec3f, ab: f32, side2: f32, weights: vec2f, length: f32, core2: f32, rim: f32) -> f32 {
+    let r = sqrt(squares.xy + core2);
+    let product = r.x * r.y;
+    let sum = r.x + r.y;
+    let inverse = 1.0 / sum;
+    let x2 = squares.z * inverse * inverse;
+    let c = ab + core2;
+    let k = select((side2 + core2 * squares.z) / (product - c), product + c, c >= 0.0);
     var h = 1.0 / 3.0 + x2 * (0.2 + x2 * (1.0 / 7.0 + x2 * (1.0 / 9.0)));
     var g = 1.0 + x2 * h;
     if (x2 >= 0.06) {
         let x = sqrt(x2);
-        g = log((1.0 + x) * (1.0 + x) * sum * sum / (2.0 * k)) / (2.0 * x);
+        let y = (1.0 + x) * sum;
+        g = log(y * y / (2.0 * k)) / (2.0 * x);
         h = (g - 1.0) / x2;
     }
     let mean = 0.5 * (weights.x + weights.y);
-    let tilt = (weights.y - weights.x) * (rb - ra) / (2.0 * sum);
-    return length * (2.0 / sum * (g * mean - tilt * h) - mean * rim);
+    let tilt = 0.5 * (weights.y - weights.x) * (r.y - r.x) * inverse;
+    return length * (2.0 * inverse * (g * mean - tilt * h) - mean * rim);
 }
 
 fn pixel_rays(square: u32, block: u32, local_id: vec2u) -> Rays {
@@ -626,9 +634,12 @@ fn pixel_rays(square: u32, block: u32, local_id: vec2u) -> Rays {
     let pixels = vec4u(first - view.tile_origin, second - view.tile_origin);
     let ray = view_ray(vec2f(first) + 0.5);
     let other = view_ray(vec2f(second) + 0.5);
-    let last = vec4u(view.tile_size, view.tile_size) - 1u;
-    let texels = min(pixels, last) * view.gbuffer_scale;
-    let surfaces = vec2f(ray_distance(ray, textureLoad(depth, texels.xy, 0).x), ray_distance(other, textureLoad(depth, texels.zw, 0).x));
+    var surfaces = vec2f(1e30);
+    if (hides) {
+        let last = vec4u(view.tile_size, view.tile_size) - 1u;
+        let texels = min(pixels, last) * view.gbuffer_scale;
+        surfaces = vec2f(ray_distance(ray, textureLoad(depth, texels.xy, 0).x), ray_distance(other, textureLoad(depth, texels.zw, 0).x));
+    }
     return Rays(ray, other, surfaces, pixels);
 }
 
@@ -762,15 +773,12 @@ fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
     return WaveRay(nearest, direction, middle, range.x, range.y);
 }
 
-fn within_radius(start: vec3f, change: vec3f, radius: f32) -> vec2f {
-    let change2 = dot(change, change);
-    if (change2 < 1e-30) {
-        return select(vec2f(1.0, 0.0), vec2f(0.0, 1.0), dot(start, start) < radius * radius);
-    }
-    let nearest = -dot(start, change) / change2;
+fn within_radius(start: vec2f, change: vec2f, radius: f32) -> vec2f {
+    let inverse = 1.0 / max(dot(change, change), 1e-30);
+    let nearest = -dot(start, change) * inverse;
     let p = start + nearest * change;
     let free = radius * radius - dot(p, p);
-    let half = sqrt(max(free, 0.0) / change2);
+    let half = sqrt(max(free, 0.0) * inverse);
     return select(vec2f(1.0, 0.0), vec2f(max(nearest - half, 0.0), min(nearest + half, 1.0)), free > 0.0);
 }
 
@@ -810,6 +818,8 @@ fn collect_full(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_i
 override core_grows: bool = true;
 
 override fades: bool = true;
+
+override hides: bool = true;
 
 override keeps_energy: bool = true;
 

@@ -32,6 +32,8 @@ pub(crate) struct WaveData {
     pub(crate) method: WaveMethod,
     pub(crate) kind: ReferenceKind,
     fades: bool,
+    /// Some wave is hidden by what is before it.
+    occluded: bool,
     /// For each wave: a sphere round all its glow in the world, and its ε.
     spheres: Vec<(Vec3, f32, f32)>,
 }
@@ -60,6 +62,8 @@ pub(crate) struct ExactKind {
     pub(crate) fades: bool,
     /// Some soft core is less than half a pixel somewhere.
     pub(crate) core_grows: bool,
+    /// Surfaces hide some of the waves.
+    pub(crate) hides: bool,
     /// The energy itself is wanted.
     pub(crate) keeps_energy: bool,
 }
@@ -70,14 +74,19 @@ impl WaveData {
         &self,
         view: &View,
         projected: &Projected,
-        keeps_energy: bool,
+        (has_surfaces, keeps_energy): (bool, bool),
     ) -> ExactKind {
         let eye = Vec3::from(view.camera.world_from_camera.translation);
         let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
             let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
             core < 0.5 * projected.pixel_footprint * distance
         };
-        ExactKind { fades: self.fades, core_grows: self.spheres.iter().any(grows), keeps_energy }
+        ExactKind {
+            fades: self.fades,
+            core_grows: self.spheres.iter().any(grows),
+            hides: has_surfaces && self.occluded,
+            keeps_energy,
+        }
     }
 }
 
@@ -161,6 +170,7 @@ impl WaveData {
             method: WaveMethod::Exact,
             kind: ReferenceKind::ANY,
             fades: false,
+            occluded: false,
             spheres: Vec::new(),
         }
     }
@@ -187,6 +197,7 @@ impl WaveData {
             packer.add(wave, pose, layer as u32);
         }
         self.fades = packer.waves.iter().any(|w| w.attenuation != 0.0 && w.attenuation != 1.0);
+        self.occluded = packer.waves.iter().any(|w| w.flags & gpu::WAVE_OCCLUDED != 0);
         self.spheres = packer.waves.iter().map(sphere).collect();
         self.kind = ReferenceKind::of(&packer.waves, self.method);
         self.count = packer.waves.len() as u32;
