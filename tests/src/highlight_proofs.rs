@@ -118,8 +118,10 @@ pub fn places(check: Check<'_>) {
         check(gamma < 1.0 || same >= 0.9, format!("γ = 1 keeps only {same} of the shape"));
         check(gamma > 0.0 || same < 0.9, format!("γ = 0 keeps {same} of the shape"));
     }
+    let same = overlap_on_head(1.0, false);
+    println!("  γ = 1, by normals from the centre: overlap of a star on the head's hair {same:.3}");
     for gamma in [0.0, 1.0] {
-        let same = overlap_on_head(gamma);
+        let same = overlap_on_head(gamma, true);
         println!(
             "  γ = {gamma}: overlap of a star on the head's hair with one on a ball {same:.3}"
         );
@@ -128,19 +130,27 @@ pub fn places(check: Check<'_>) {
 }
 
 /// How much of a star on the head's hair is where it is on a smooth ball, for a part γ of the ball's
-/// normals, on average over eight views from all round.
+/// normals, on average over eight views from all round. The ball is fitted to the hair, as scene
+/// files do, and the star is seen on it, or else has its normals at the hair's own places.
 ///
 /// Compared is what the hair itself shows: where there are gaps between locks, there is nothing
 /// that could carry the star.
 #[must_use]
-pub fn overlap_on_head(gamma: f32) -> f64 {
+pub fn overlap_on_head(gamma: f32, seen_on_ball: bool) -> f64 {
     let style = style(
         "[lines]\nmethod = \"none\"\n[light]\nreplace_model_lights = true\npinned_to = \"camera\"",
     );
-    let (center, radius) = (Vec3::new(0.0, 0.26, -0.02), 0.14);
-    let proxy = Proxy::Ball { center, radius };
     let mut head = head_with(star());
-    head.highlights[0] = Highlight { proxy, gamma, ..head.highlights[0].clone() };
+    let center = head.highlights[0].proxy.center();
+    let fitted = head.fitted_ball(&head.highlights[0], Some(center));
+    let radius = match &fitted {
+        Some(Proxy::Ball { radius, .. }) => *radius,
+        _ => 0.0,
+    };
+    head.highlights[0].gamma = gamma;
+    if let Some(proxy) = fitted.filter(|_| seen_on_ball) {
+        head.highlights[0].proxy = proxy;
+    }
     let mut ball = shapes::uv_sphere(192, 96, radius);
     ball.positions.iter_mut().for_each(|p| *p += center);
     let proxy = Proxy::Sphere { center };

@@ -440,8 +440,29 @@ fn a_drawing_on_a_ball_can_be_put_at_any_pixel_of_a_head() {
 }
 
 #[test]
+fn a_drawing_ends_at_the_rim_of_its_ball() {
+    // The light behind: the drawing reaches round the rim, beyond which sight misses the ball.
+    let proxy = Proxy::Ball { center: Vec3::ZERO, radius: 0.6 };
+    let highlight = Highlight { proxy, size: Vec2::splat(5.0), ..of(BuiltInDrawing::Disc) };
+    let from = Vec3::new(0.6, 0.2, -1.0);
+    let scene = lit_scene(shapes::uv_sphere(96, 48, 1.0), from, vec![highlight]);
+    let covered = covered(&drawn(&scene, &Pose::rest(&scene), &view()));
+    let (mut inside, mut outside) = (0, 0);
+    for (i, _) in covered.iter().enumerate().filter(|(_, is)| **is) {
+        let [origin, direction] =
+            view().ray(Vec2::new((i % 192) as f32 + 0.5, (i / 192) as f32 + 0.5));
+        let away = (origin - direction * origin.dot(direction)).length();
+        if away < 0.61 { inside += 1 } else { outside += 1 }
+    }
+    assert!(inside > 500 && outside == 0, "{inside} pixels inside of the rim, {outside} outside");
+}
+
+#[test]
 fn a_star_keeps_its_shape_on_the_locks_of_a_head() {
-    let [own, round] = [0.0, 1.0].map(genga_tests::highlight_proofs::overlap_on_head);
+    let overlap = genga_tests::highlight_proofs::overlap_on_head;
+    let (own, round, paper) = (overlap(0.0, true), overlap(1.0, true), overlap(1.0, false));
     assert!(round >= 0.9, "γ = 1 keeps {round:.3} of it");
     assert!(own < 0.5, "γ = 0 keeps {own:.3}, so this proves nothing");
+    // Normals from the centre keep less of it: locks stand off the ball.
+    assert!(own < paper && paper < round, "without a ball γ = 1 keeps {paper:.3}");
 }

@@ -57,7 +57,7 @@ fn proxies(head: &str) -> Result<Sheet> {
         let mut scene =
             changed(head, "drawing = \"angel-ring\"", &format!("drawing = \"{drawing}\""))?;
         if drawing == "star" {
-            scene = changed(&scene, "size_deg = [200, 84]", "size_deg = [80, 80]")?;
+            scene = changed(&scene, "size_deg = [236, 100]", "size_deg = [80, 80]")?;
         }
         for gamma in ["0.0", "0.9", "1.0"] {
             let scene = changed(&scene, "level = true", &format!("level = true\ngamma = {gamma}"))?;
@@ -75,7 +75,7 @@ fn drawings(head: &str) -> Result<Sheet> {
     let sizes = [
         ("disc", 44, 44),
         ("band", 170, 44),
-        ("angel-ring", 200, 84),
+        ("angel-ring", 236, 100),
         ("window", 56, 56),
         ("star", 72, 72),
         ("heart", 60, 60),
@@ -86,7 +86,7 @@ fn drawings(head: &str) -> Result<Sheet> {
     for (drawing, width, height) in sizes {
         let scene = changed(head, "drawing = \"angel-ring\"", &format!("drawing = \"{drawing}\""))?;
         let size = format!("size_deg = [{width}, {height}]");
-        let scene = changed(&scene, "size_deg = [200, 84]", &size)?;
+        let scene = changed(&scene, "size_deg = [236, 100]", &size)?;
         cells.push(Cell { scene, style: None, options: camera(-10.0, 1.1) });
     }
     Ok(Sheet { name: "highlights-drawings", cell: [240, 240], columns: 4, cells })

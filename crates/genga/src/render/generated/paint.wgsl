@@ -739,6 +739,18 @@ fn display_from_linear(c: vec3f) -> vec3f {
     return select(high, low, c <= vec3f(0.0031308));
 }
 
+fn distance_on_ball(i: u32, reflected: vec4f, p_in_world: vec3f, to_eye: vec3f) -> f32 {
+    let drawn = drawing_lookup(i, reflected).z;
+    if (!HAS_BALL) {
+        return drawn;
+    }
+    let radius = highlights.items[i].radius;
+    let q = p_in_world - highlights.items[i].center;
+    let along = dot(q, to_eye);
+    let beyond = (dot(q, q) - along * along) / max(radius * radius, 1e-30) - 1.0;
+    return select(drawn, max(drawn, min(beyond, FAR_OUTSIDE)), radius > 0.0);
+}
+
 fn dot_coverage(p: vec2f, turn: vec2f, spacing: f32, ink: f32) -> f32 {
     let q = vec2f(p.x * turn.x + p.y * turn.y, p.y * turn.x - p.x * turn.y) / spacing;
     let is_hole = ink > 0.5;
@@ -993,15 +1005,15 @@ fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f 
     var distances = vec4f(FAR_OUTSIDE);
     if (HIGHLIGHTS > 0u) {
         let first = reflected_view(0u, p_in_world, normal, to_eye);
-        distances.x = drawing_lookup(0u, first).z;
+        distances.x = distance_on_ball(0u, first, p_in_world, to_eye);
         if (HIGHLIGHTS > 1u) {
-            distances.y = next_lookup(1u, first, p_in_world, normal, to_eye);
+            distances.y = next_distance(1u, first, p_in_world, normal, to_eye);
         }
         if (HIGHLIGHTS > 2u) {
-            distances.z = next_lookup(2u, first, p_in_world, normal, to_eye);
+            distances.z = next_distance(2u, first, p_in_world, normal, to_eye);
         }
         if (HIGHLIGHTS > 3u) {
-            distances.w = next_lookup(3u, first, p_in_world, normal, to_eye);
+            distances.w = next_distance(3u, first, p_in_world, normal, to_eye);
         }
     }
     let dx = dpdx(distances);
@@ -1349,11 +1361,12 @@ fn nearest_color(color: vec3f) -> vec3f {
     return frame.palette[best].color.rgb;
 }
 
-fn next_lookup(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
+fn next_distance(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
     if (SHARE_PROXY) {
-        return drawing_lookup(i, first).z;
+        return distance_on_ball(i, first, p_in_world, to_eye);
     }
-    return drawing_lookup(i, reflected_view(i, p_in_world, normal, to_eye)).z;
+    let reflected = reflected_view(i, p_in_world, normal, to_eye);
+    return distance_on_ball(i, reflected, p_in_world, to_eye);
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {

@@ -8,8 +8,8 @@ use crate::scene::{Pose, Scene};
 impl Scene {
     /// The ball that stands best for the surfaces which carry a highlight, at rest: round `center`
     /// (in the highlight's node), or round the centre of the sphere of least squares (Coope 1993).
-    /// Its radius is the surfaces' mean distance over all directions in which the centre sees them,
-    /// so what is far off, or seen from the side, counts little. `None` if no surface carries it.
+    /// Its radius is the mean distance of their outer sides over all directions in which the centre
+    /// sees them, so what is far off, or seen from the side, counts little. `None` if no surface carries it.
     ///
     /// It visits every triangle on the CPU.
     #[must_use]
@@ -19,16 +19,21 @@ impl Scene {
         let center = center?;
         let area = |[a, b, c]: &[DVec3; 3]| (b - a).cross(c - a).length();
         let all: f64 = triangles.iter().map(area).sum();
-        let (mut sum, mut total) = (0.0, 0.0);
+        // Triangles that turn one side to the centre, and the other.
+        let (mut sums, mut totals) = ([0.0; 2], [0.0; 2]);
         for corners in &triangles {
             // Areas decide where the centre lies in the plane of all triangles.
             let little = 1e-6 * area(corners) / all;
             let corners = corners.map(|corner| corner - center);
-            let angle = solid_angle(corners) + little;
-            sum += angle * (corners[0] + corners[1] + corners[2]).length() / 3.0;
-            total += angle;
+            let angle = solid_angle(corners);
+            let side = usize::from(angle < 0.0);
+            let weight = angle.abs() + little;
+            sums[side] += weight * (corners[0] + corners[1] + corners[2]).length() / 3.0;
+            totals[side] += weight;
         }
-        let radius = (sum / total) as f32;
+        // Of closed meshes the outer side is seen, which is farther away.
+        let side = usize::from(sums[1] > sums[0]);
+        let radius = (sums[side] / totals[side]) as f32;
         let center = center.as_vec3();
         (radius.is_finite() && radius > 0.0 && center.is_finite())
             .then_some(Proxy::Ball { center, radius })
@@ -87,11 +92,12 @@ fn center_of(triangles: &[[DVec3; 3]]) -> Option<DVec3> {
     Some(middle + offset)
 }
 
-/// The solid angle that a triangle covers as seen from the origin (van Oosterom and Strackee 1983).
+/// The solid angle that a triangle covers as seen from the origin, negative if it turns its front to it
+/// (van Oosterom and Strackee 1983).
 fn solid_angle([a, b, c]: [DVec3; 3]) -> f64 {
     let (la, lb, lc) = (a.length(), b.length(), c.length());
     let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-    let angle = 2.0 * a.dot(b.cross(c)).abs().atan2(below);
+    let angle = 2.0 * a.dot(b.cross(c)).atan2(below);
     if angle.is_finite() { angle } else { 0.0 }
 }
 
