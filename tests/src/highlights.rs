@@ -344,8 +344,9 @@ pub fn covered(picture: &Picture) -> Vec<bool> {
     bytes.as_chunks::<4>().0.iter().map(|texel| texel[3] >= 128).collect()
 }
 
-/// Median GPU times of the paint pass in milliseconds, without the highlights and with them,
-/// measured by turns.
+/// GPU times of the paint pass in milliseconds, without the highlights and with them, measured by
+/// turns: the median without, and that times the median ratio of two frames in a row, since what
+/// else a machine does changes slowly.
 ///
 /// # Panics
 /// If the renderer reports an error or the device has no clock.
@@ -369,10 +370,14 @@ pub fn paint_times(scene: &Scene, style: &Style, view: &View, runs: usize) -> [f
             }
         }
     }
-    times.map(|mut times| {
-        times.sort_by(f64::total_cmp);
-        times[times.len() / 2]
-    })
+    let median = |mut values: Vec<f64>| {
+        values.sort_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    let ratio = median(times[0].iter().zip(&times[1]).map(|(a, b)| b / a).collect());
+    let [plain, _] = times;
+    let plain = median(plain);
+    [plain, plain * ratio]
 }
 
 /// What [`put_everywhere`] finds.

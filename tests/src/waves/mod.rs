@@ -66,6 +66,7 @@ pub struct Reference {
     axes: DMat3,
     /// Metres per pixel (see [`footprint`]), and whether everywhere.
     footprint: (f64, bool),
+    near: f64,
     tail: DVec3,
     head: DVec3,
     bound: (DVec3, f64),
@@ -101,6 +102,7 @@ impl Reference {
             origin: anchor.offset.as_dvec3(),
             axes,
             footprint: (footprint(view), is_ortho),
+            near: f64::from(view.camera.near),
             tail,
             head,
             bound: (middle, radius * 1.001),
@@ -176,7 +178,7 @@ impl Reference {
     fn density(&self, p: DVec3, t: f64) -> f64 {
         let wave = &self.wave;
         let (footprint, is_ortho) = self.footprint;
-        let pixel = footprint * if is_ortho { 1.0 } else { t };
+        let pixel = footprint * if is_ortho { 1.0 } else { t.max(self.near) };
         let core = f64::from(wave.core).max(0.5 * pixel);
         let law = |r: f64, alpha: f64| {
             let rim = wave.radius.map_or(0.0, |radius| {

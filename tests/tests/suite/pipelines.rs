@@ -196,7 +196,7 @@ fn the_waves_reference_is_valid_for_every_curve() {
         for thinning in [1, 2] {
             let mut scene = scene_of_all_kinds();
             scene.waves = vec![Wave { shape: shape.clone(), ..Wave::default() }];
-            scene.wave_method = WaveMethod::Simpson { points: 10, thinning };
+            scene.wave_method = WaveMethod::Simpson { points: 10, thinning, de_boor: false };
             let prepared = renderer.prepare(&scene, &Style::default()).expect("it is valid");
             let mut progress = |_, _| {};
             let picture = renderer.picture(&prepared, &view, &[], &mut progress);

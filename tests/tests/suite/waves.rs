@@ -177,11 +177,18 @@ fn the_parts_before_and_behind_a_wall_make_up_the_whole() {
 fn no_ray_gives_a_number_that_is_none() {
     let mut random = Random(3);
     for (name, shape) in wave_shapes() {
-        for scale in [1e-3, 1.0, 1e4] {
+        for (scale, core, radius) in [
+            (1e-3, 0.02, Some(0.8)),
+            (1.0, 0.02, None),
+            (1.0, 0.0, None),
+            (1.0, 0.0, Some(0.8)),
+            (1e4, 0.02, None),
+            (1e4, 0.0, Some(0.8)),
+        ] {
             let scaled = scaled(&shape, scale);
             let wave = Wave {
-                core: 0.02 * scale,
-                radius: if random.below(2) == 0 { None } else { Some(0.8 * scale) },
+                core: core * scale,
+                radius: radius.map(|radius: f32| radius * scale),
                 reach: 1000.0 * scale,
                 attenuation: random.below(3) as f32,
                 swell: [0.1, 0.2],
@@ -413,9 +420,9 @@ fn the_reference_method_comes_near_the_same_energy() {
         let wave = Wave { core: 0.2, ..wave(shape) };
         let exact = energies(&scene_of(std::slice::from_ref(&wave)), &view);
         let peak = exact.iter().copied().fold(0.0, f32::max);
-        for thinning in [1, 2] {
+        for (thinning, de_boor) in [(1, false), (2, false), (1, true)] {
             let mut scene = scene_of(std::slice::from_ref(&wave));
-            scene.wave_method = WaveMethod::Simpson { points: 1000, thinning };
+            scene.wave_method = WaveMethod::Simpson { points: 1000, thinning, de_boor };
             for (a, b) in exact.iter().zip(energies(&scene, &view)) {
                 assert!((a - b).abs() <= 0.01 * a.max(peak / 20.0), "{name}: {a} and {b}");
             }

@@ -50,7 +50,7 @@ fn between(head: &str) -> Result<Sheet> {
     Ok(Sheet { name: "highlights-between", cell: [200, 200], columns: 5, cells })
 }
 
-/// γ = 0, 0.9 and 1.
+/// γ = 0, 0.9 and 1 on the ball that is fitted to the hair; last, γ = 1 by normals from the centre.
 fn proxies(head: &str) -> Result<Sheet> {
     let mut cells = Vec::new();
     for drawing in ["angel-ring", "star"] {
@@ -63,8 +63,11 @@ fn proxies(head: &str) -> Result<Sheet> {
             let scene = changed(&scene, "level = true", &format!("level = true\ngamma = {gamma}"))?;
             cells.push(Cell { scene, style: None, options: camera(-22.0, 1.15) });
         }
+        let center = "center = [0, 0.26, -0.02]";
+        let scene = changed(&scene, center, &format!("{center}, radius = 0"))?;
+        cells.push(Cell { scene, style: None, options: camera(-22.0, 1.15) });
     }
-    Ok(Sheet { name: "highlights-proxy", cell: [320, 320], columns: 3, cells })
+    Ok(Sheet { name: "highlights-proxy", cell: [300, 300], columns: 4, cells })
 }
 
 /// All drawings that come with the library.

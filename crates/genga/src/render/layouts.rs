@@ -25,7 +25,7 @@ pub(crate) struct Layouts {
     pub(crate) lines: wgpu::BindGroupLayout,
     /// Group 0 of `strokes`: frame, depth, ids, curves.
     pub(crate) strokes: wgpu::BindGroupLayout,
-    /// Group 1 of `strokes`: pieces, states, links, ranks, places.
+    /// Group 1 of `strokes`: pieces, states, links, ranks, places, marks.
     pub(crate) linked: wgpu::BindGroupLayout,
     /// Group 0 of `reference`: frame, draws, mask.
     pub(crate) reference: wgpu::BindGroupLayout,
@@ -78,7 +78,7 @@ impl Layouts {
                 S::FRAGMENT,
                 &[
                     (0, B::DynamicUniform),
-                    (1, B::FilteredLayers),
+                    (1, B::UintLayers),
                     (2, B::FilteredLayers),
                     (3, B::FilteredLayers),
                     (4, B::Sampler),
@@ -151,6 +151,7 @@ impl Layouts {
                     (2, B::Storage),
                     (3, B::Storage),
                     (4, B::Storage),
+                    (5, B::Storage),
                 ],
             ),
             reference: layout(

@@ -65,6 +65,34 @@ impl Scene {
         }
         nearest
     }
+
+    /// Calls `visit` with the node, the material's name and the corners in the world of every
+    /// triangle that is drawn at a pose.
+    pub(super) fn visit_triangles(
+        &self,
+        pose: &Pose,
+        visit: &mut dyn FnMut(usize, &str, [Vec3; 3]),
+    ) {
+        for (index, node) in self.nodes.iter().enumerate() {
+            let Some(mesh) = node.mesh.and_then(|mesh| self.meshes.get(mesh)) else { continue };
+            if !pose.visible.get(index).copied().unwrap_or(false) {
+                continue;
+            }
+            let world_from_node = pose.world_from_node.get(index).copied().unwrap_or_default();
+            let weights = pose.morph_weights.get(index).map_or(&[][..], Vec::as_slice);
+            let joints = pose.world_from_rest(self, index).unwrap_or_default();
+            for primitive in &mesh.primitives {
+                let material = primitive.material.and_then(|m| self.materials.get(m));
+                let name = material.map_or("", |material| material.name.as_str());
+                let posed = Posed::new(primitive, &world_from_node, &joints, weights);
+                let (triangles, _) = primitive.indices.as_chunks::<3>();
+                triangles
+                    .iter()
+                    .filter_map(|triangle| posed.corners(triangle))
+                    .for_each(|corners| visit(index, name, corners));
+            }
+        }
+    }
 }
 
 /// A primitive in its place.

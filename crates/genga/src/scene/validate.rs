@@ -178,7 +178,7 @@ pub(crate) fn validate_waves(
         let wrong = |reason| SceneError::Wave { index, name: wave.name.clone(), reason };
         wave.check(nodes).map_err(wrong)?;
     }
-    if let WaveMethod::Simpson { points, thinning } = method
+    if let WaveMethod::Simpson { points, thinning, .. } = method
         && !((2..=4000).contains(&points) && (1..=64).contains(&thinning))
     {
         return Err(SceneError::WaveMethod { points, thinning });

@@ -49,7 +49,7 @@ fn what_cannot_be_drawn_gets_a_sentence() {
     assert!(fault(Wave { placement, ..Wave::default() }).contains("only 0 nodes"));
     let many = Scene { waves: vec![Wave::default(); 300], ..Scene::default() };
     assert!(many.validate().expect_err("too many").to_string().contains("300 waves"));
-    let method = WaveMethod::Simpson { points: 0, thinning: 1 };
+    let method = WaveMethod::Simpson { points: 0, thinning: 1, de_boor: false };
     assert!(Scene { wave_method: method, ..Scene::default() }.validate().is_err());
 }
 

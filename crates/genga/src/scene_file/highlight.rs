@@ -32,8 +32,8 @@ pub struct HighlightEntry {
     /// Globs of the materials that it lies on; all by default.
     #[serde(default)]
     pub materials: Globs,
-    /// The smooth shape whose normals stand in for the surface's; a sphere round the node's origin
-    /// by default.
+    /// The smooth shape whose normals stand in for the surface's; a sphere that is fitted to the
+    /// surfaces by default.
     #[serde(default)]
     pub proxy: Located<ProxyEntry>,
     /// Part of the proxy's normals in the blend with the surface's own.
@@ -181,12 +181,14 @@ pub struct ProxyEntry {
     /// The shape; a sphere by default.
     #[serde(default)]
     pub r#type: ProxyKind,
-    /// Its middle in metres; the node's origin by default.
+    /// Its middle in metres; the node's origin by default, but the sphere of a highlight is fitted to
+    /// its surfaces at rest.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub center: Option<[f32; 3]>,
     /// Sphere: radius in metres of the ball that the drawing is seen on, so that locks which stand
-    /// off it do not move the drawing; without it, the drawing lies on the surface itself.
-    #[schemars(range(min = 1e-6, max = 1e6))]
+    /// off it do not move the drawing; fitted to the surfaces at rest by default. 0 for normals from
+    /// the centre at the surface itself, as in the paper on anime highlights.
+    #[schemars(range(min = 0, max = 1e6))]
     pub radius: Option<f32>,
     /// Ellipsoid: half axes, of which only the ratios count.
     #[schemars(inner(range(min = 1e-6, max = 1e6)))]

@@ -71,7 +71,7 @@ impl Places<'_> {
             Some(name) => Some(self.light(name)?),
             None => None,
         };
-        let highlight = Highlight {
+        let mut highlight = Highlight {
             name: entry.name.clone(),
             drawing,
             node,
@@ -89,6 +89,11 @@ impl Places<'_> {
             mask,
             placement: entry.placement(),
         };
+        let proxy = &entry.proxy;
+        if proxy.r#type == ProxyKind::Sphere && proxy.radius.is_none() {
+            let ball = self.scene.fitted_ball(&highlight, proxy.center.map(Vec3::from));
+            highlight.proxy = ball.unwrap_or(highlight.proxy);
+        }
         highlight.validate(self.scene.nodes.len()).map_err(|problem| {
             self.file.error(&entry.drawing, format!("this highlight {problem}"))
         })?;
@@ -196,8 +201,8 @@ impl Places<'_> {
         let center = point(proxy.center);
         Ok(match proxy.r#type {
             ProxyKind::Sphere => match proxy.radius {
-                Some(radius) => Proxy::Ball { center, radius },
-                None => Proxy::Sphere { center },
+                Some(radius) if radius > 0.0 => Proxy::Ball { center, radius },
+                _ => Proxy::Sphere { center },
             },
             ProxyKind::Ellipsoid => Proxy::Ellipsoid {
                 center,

@@ -116,6 +116,23 @@ fn a_sphere_with_a_radius_is_a_ball_to_be_seen_on() {
     let text = one("drawing = \"disc\"\nproxy = { center = [0, 1, 0], radius = 0.5 }");
     let proxy = &assemble(&text).scene.highlights[0].proxy;
     assert_eq!(*proxy, Proxy::Ball { center: Vec3::Y, radius: 0.5 });
+    // The paper's own.
+    let text = one("drawing = \"disc\"\nproxy = { center = [0, 1, 0], radius = 0 }");
+    let proxy = &assemble(&text).scene.highlights[0].proxy;
+    assert_eq!(*proxy, Proxy::Sphere { center: Vec3::Y });
+}
+
+#[test]
+fn a_sphere_without_a_radius_is_fitted_to_what_carries_it() {
+    for proxy in ["", "proxy = { center = [0, 1, 0] }", "proxy = { type = \"sphere\" }"] {
+        let text = one(&format!("drawing = \"disc\"\nobjects = [\"Body\"]\n{proxy}"));
+        let scene = assemble(&text).scene;
+        let Proxy::Ball { radius, .. } = scene.highlights[0].proxy else { panic!("{proxy}") };
+        assert!(radius.is_finite() && radius > 0.0, "{proxy}: {radius}");
+    }
+    // Nothing carries it: the renderer warns.
+    let text = one("drawing = \"disc\"\nobjects = [\"nothing\"]");
+    assert!(matches!(assemble(&text).scene.highlights[0].proxy, Proxy::Sphere { .. }));
 }
 
 #[test]
@@ -131,7 +148,7 @@ fn what_is_wrong_with_a_highlight_is_said_at_its_place() {
         ("drawing = \"star\"\nmask = \"none.png\"", "cannot be read"),
         ("drawing = \"star\"\nproxy = { type = \"cube\" }", "\"sphere\""),
         ("drawing = \"star\"\nproxy = { radii = [1, 1, 1] }", "no 'radii'"),
-        ("drawing = \"star\"\nproxy = { radius = 0 }", "radius"),
+        ("drawing = \"star\"\nproxy = { radius = -1 }", "radius"),
         (
             "drawing = \"star\"\nproxy = { type = \"capsule\", to = [0, 1, 0], radius = 1 }",
             "no 'radius'",

@@ -257,11 +257,18 @@ pub struct WaveReference {
     #[serde(default = "one_octave")]
     #[schemars(range(min = 1, max = 64))]
     pub thinning: u32,
+    /// B-splines by de Boor's algorithm instead of the sum of their basis functions.
+    #[serde(default)]
+    pub de_boor: bool,
 }
 
 impl From<WaveReference> for WaveMethod {
     fn from(reference: WaveReference) -> Self {
-        Self::Simpson { points: reference.points, thinning: reference.thinning }
+        Self::Simpson {
+            points: reference.points,
+            thinning: reference.thinning,
+            de_boor: reference.de_boor,
+        }
     }
 }
 

@@ -34,7 +34,7 @@ points = 100
     let WavePlacement::Between { from, to, .. } = &wave.placement else { panic!("{wave:?}") };
     assert_eq!((&from.nodes[..], &to.nodes[..]), (&[1, 2][..], &[3][..]));
     assert_eq!(wave.growth, [0.0, 0.5]);
-    let reference = WaveMethod::Simpson { points: 100, thinning: 1 };
+    let reference = WaveMethod::Simpson { points: 100, thinning: 1, de_boor: false };
     assert_eq!(assembled.scene.wave_method, reference);
     let wrong = text.replace("\"goal\"", "\"gaol\"");
     let file = SceneFile::from_toml_str(&wrong).expect("names are looked up later");

@@ -58,7 +58,7 @@ fn against_simpson(report: &mut Report) {
             };
             let fine = Wave { tolerance: 0.001, ..wave.clone() };
             let mut simpson = scene_of(std::slice::from_ref(&wave));
-            simpson.wave_method = WaveMethod::Simpson { points: 500, thinning: 1 };
+            simpson.wave_method = WaveMethod::Simpson { points: 500, thinning: 1, de_boor: false };
             let scenes = [scene_of(std::slice::from_ref(&wave)), scene_of(&[fine]), simpson];
             let found =
                 scenes.map(|scene| errors(&wave, &view, &energies(&scene, &view), 1200, &no_end));

@@ -61,7 +61,7 @@ pub(super) fn measure(
     let mut bench = Bench { graphics, console, runs, clock, rows: Vec::new() };
     let sizes = size.map_or_else(|| SIDES.map(|side| [side; 2]).to_vec(), |size| vec![size]);
     let middle = size.unwrap_or([1024; 2]);
-    let simpson = |points, thinning| WaveMethod::Simpson { points, thinning };
+    let simpson = |points, thinning| WaveMethod::Simpson { points, thinning, de_boor: false };
     for (name, shape) in curves() {
         let wave = [wave(shape)];
         for &size in &sizes {
@@ -69,6 +69,9 @@ pub(super) fn measure(
             // The paper's table 4.5.
             if size[0] == 2048 && ["helix", "b-spline"].contains(&name) {
                 methods.extend([simpson(500, 2), simpson(500, 4)]);
+            }
+            if name == "b-spline" {
+                methods.push(WaveMethod::Simpson { points: 500, thinning: 1, de_boor: true });
             }
             bench.compare(name, &wave, size, &methods)?;
             // Wide enough for the reference to resolve.
@@ -205,8 +208,11 @@ impl Bench<'_> {
                 waves: waves.len(),
                 method: match method {
                     WaveMethod::Exact => "exact".to_owned(),
-                    WaveMethod::Simpson { points, thinning: 1 } => format!("m = {points}"),
-                    WaveMethod::Simpson { points, thinning } => {
+                    WaveMethod::Simpson { points, de_boor: true, .. } => {
+                        format!("m = {points}, de Boor")
+                    }
+                    WaveMethod::Simpson { points, thinning: 1, .. } => format!("m = {points}"),
+                    WaveMethod::Simpson { points, thinning, .. } => {
                         format!("m = {points}, n = {thinning}")
                     }
                 },

@@ -67,7 +67,7 @@ var shade_sampler: sampler;
 var<uniform> highlights: HighlightBlock;
 
 @group(2) @binding(1)
-var drawings: texture_2d_array<f32>;
+var drawings: texture_2d_array<u32>;
 
 @group(2) @binding(2)
 var masks: texture_2d_array<f32>;
@@ -110,6 +110,8 @@ const END_JITTER: f32 = 0.21;
 const FAR_OUTSIDE: f32 = 10000.0;
 
 const FIELD_EXTENT: f32 = 1.25;
+
+const FIELD_SIZE: f32 = 512.0;
 
 const FRAME_LINEAR_BLEND: u32 = 1u;
 
@@ -779,8 +781,7 @@ fn drawing_coordinates(i: u32, reflected: vec4f) -> vec2f {
 
 fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
     let u = drawing_coordinates(i, reflected);
-    let uv = u * vec2f(0.5, -0.5) / FIELD_EXTENT + 0.5;
-    let inside = textureSampleLevel(drawings, clamped, uv, highlights.items[i].drawing, 0.0).x;
+    let inside = field_distance(highlights.items[i].drawing, u);
     let beyond = max(max(abs(u.x), abs(u.y)) - FIELD_EXTENT, 0.0);
     return vec3f(u, min(inside + beyond, FAR_OUTSIDE));
 }
@@ -788,6 +789,18 @@ fn drawing_lookup(i: u32, reflected: vec4f) -> vec3f {
 fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
     let outwards = unit(in.normal);
     return select(-outwards, outwards, front_facing);
+}
+
+fn field_distance(layer: u32, u: vec2f) -> f32 {
+    let at = u * vec2f(0.5, -0.5) * (FIELD_SIZE / FIELD_EXTENT) + 0.5 * FIELD_SIZE - 0.5;
+    let inside = clamp(at, vec2f(0.0), vec2f(FIELD_SIZE - 1.0));
+    let texel = vec2u(inside);
+    let part = inside - vec2f(texel);
+    let below = min(texel.y + 1u, u32(FIELD_SIZE) - 1u);
+    let upper = unpack2x16snorm(textureLoad(drawings, texel, layer, 0).x);
+    let lower = unpack2x16snorm(textureLoad(drawings, vec2u(texel.x, below), layer, 0).x);
+    let both = mix(upper, lower, part.y);
+    return mix(both.x, both.y, part.x);
 }
 
 fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32, salt: u32) -> f32 {
@@ -1577,7 +1590,22 @@ fn receiver_at(p_in_world: vec3f, normal: vec3f) -> Receiver {
 }
 
 fn reflected_view(i: u32, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
-    var n = proxy_normal(i, seen_point(i, p_in_world, to_eye));
+    var seen = p_in_world;
+    if (HAS_BALL) {
+        let radius = highlights.items[i].radius;
+        let q = p_in_world - highlights.items[i].center;
+        let along = dot(q, to_eye);
+        let off_squared = dot(q, q) - along * along;
+        let met = sqrt(max(radius * radius - off_squared, 0.0));
+        let n_dot_eye = select(along, met, radius > 0.0);
+        if (!BLENDS_NORMALS && !HAS_MATRIX && !HAS_AXIS) {
+            let n_squared = off_squared + n_dot_eye * n_dot_eye;
+            let by_eye = 2.0 * n_dot_eye * (n_dot_eye - along) - n_squared;
+            return vec4f(2.0 * n_dot_eye * q + by_eye * to_eye, n_squared);
+        }
+        seen += to_eye * (n_dot_eye - along);
+    }
+    var n = proxy_normal(i, seen);
     if (BLENDS_NORMALS) {
         let gamma = highlights.items[i].gamma;
         n = gamma * n * inverseSqrt(max(dot(n, n), 1e-30)) + (1.0 - gamma) * normal;
@@ -1626,18 +1654,6 @@ fn screen_dots(look: u32, darkness: f32, pixel: vec2f) -> f32 {
     let texel = 1.0 / (frame.paint_scale * cell);
     let d = length(q - round(q));
     return saturate((radius - d) / texel + 0.5) * saturate(part * 50.0);
-}
-
-fn seen_point(i: u32, p_in_world: vec3f, to_eye: vec3f) -> vec3f {
-    if (!HAS_BALL) {
-        return p_in_world;
-    }
-    let radius = highlights.items[i].radius;
-    let q = p_in_world - highlights.items[i].center;
-    let along = dot(q, to_eye);
-    let inside = along * along - dot(q, q) + radius * radius;
-    let moved = p_in_world + to_eye * (sqrt(max(inside, 0.0)) - along);
-    return select(p_in_world, moved, radius > 0.0);
 }
 
 fn shade(in: Surface, front_facing: bool) -> Shaded {

@@ -27,6 +27,11 @@ var<storage, read> ranks: array<vec2u>;
 @group(1) @binding(4)
 var<storage, read> places: array<vec4f>;
 
+@group(1) @binding(5)
+var<storage, read> marks: array<u32>;
+
+const AT_LINE: f32 = 0.75;
+
 const BEFORE_CUT: f32 = 3.0;
 
 const CURVE_COUNT: u32 = 5u;
@@ -308,7 +313,24 @@ fn ending(end: u32) -> Ending {
         let cut_bit = select(PIECE_COVERED_B, PIECE_COVERED_A, (other & 1u) == 0u);
         is_cut = (pieces[other >> 1u].sets & cut_bit) != 0u;
     }
-    return Ending(bitcast<f32>(rank.y), !is_joined && !is_cut, is_joined, false);
+    let is_free = !is_joined && !is_cut && !goes_on(last);
+    return Ending(bitcast<f32>(rank.y), is_free, is_joined, false);
+}
+
+fn goes_on(end: u32) -> bool {
+    let place = places[end >> 1u];
+    let tip = select(place.zw, place.xy, (end & 1u) == 0u);
+    let back = select(place.xy, place.zw, (end & 1u) == 0u);
+    let along = tip - back;
+    let unit = along * inverseSqrt(max(dot(along, along), 1e-12));
+    let ahead = 1.5 + 2.0 / min(frame.gbuffer_scale, 1.0);
+    let size = vec2i(textureDimensions(ids));
+    let texel = vec2i(floor((tip + ahead * unit - frame.tile_origin) * frame.gbuffer_scale));
+    if (any(texel < vec2i(0)) || any(texel >= size)) {
+        return false;
+    }
+    let index = u32(texel.y * size.x + texel.x);
+    return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
 }
 
 fn hashed(cell: vec3i, seed: u32) -> vec2f {
@@ -397,12 +419,14 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32, own_ste
     if (length_px <= NEAR_LINE) {
         return false;
     }
-    let unit = way / length_px;
+    let pixels = pixels_along(way);
+    let unit = way / pixels;
+    let before_line = pixels * (1.0 - NEAR_LINE / length_px);
     var fall = max(behind(p_px - unit, line_depth) - here, 0.0);
-    let steps = u32(clamp(ceil(length_px - NEAR_LINE), 1.0, 48.0));
-    var next = behind(p_px + unit * min(1.0, length_px - NEAR_LINE), line_depth);
+    let steps = u32(clamp(floor(pixels * (1.0 - AT_LINE / length_px)), 1.0, 48.0));
+    var next = behind(p_px + unit * min(1.0, before_line), line_depth);
     for (var i = 1u; i <= steps; i++) {
-        let after = behind(p_px + unit * min(f32(i) + 1.0, length_px), line_depth);
+        let after = behind(p_px + unit * min(f32(i) + 1.0, pixels), line_depth);
         let drop = here - next;
         if (drop > step + steepness * max(fall, max(next - after, 0.0))) {
             return true;
@@ -423,14 +447,14 @@ fn is_under_other(p_px: vec2f, spine_px: vec2f, line_depth: f32, other: u32) -> 
         return false;
     }
     let way = spine_px - p_px;
-    let length_px = length(way);
-    let unit = way / max(length_px, 1e-6);
+    let pixels = pixels_along(way);
+    let unit = way / pixels;
     var fall = 0.0;
     if (((ids_at(p_px - unit) ^ other) & ID_OBJECT) == 0u) {
         fall = max(behind(p_px - unit, line_depth) - here, 0.0);
     }
     var at = 0.0;
-    let steps = u32(clamp(floor(length_px), 0.0, 48.0));
+    let steps = u32(clamp(floor(pixels), 0.0, 48.0));
     for (var i = 1u; i <= steps; i++) {
         let next_px = p_px + unit * f32(i);
         if (((ids_at(next_px) ^ other) & ID_OBJECT) != 0u) {
@@ -447,11 +471,15 @@ fn is_under_other(p_px: vec2f, spine_px: vec2f, line_depth: f32, other: u32) -> 
             return false;
         }
     }
-    return here - fall * (length_px - at) > ON_SURFACE;
+    return here - fall * (pixels - at) > ON_SURFACE;
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {
     return clamp(min(distance + 0.5, radius) - max(distance - 0.5, -radius), 0.0, 1.0);
+}
+
+fn pixels_along(way: vec2f) -> f32 {
+    return max(max(abs(way.x), abs(way.y)), 1e-6);
 }
 
 fn radius_at(line_set: u32, piece: u32, at_b: bool, from_start: f32, to_end: f32, start: Ending, end: Ending) -> f32 {

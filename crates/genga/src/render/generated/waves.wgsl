@@ -241,15 +241,17 @@ fn collect_list(square: u32, rays: Rays) {
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
-    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
+    let pixel = wave.half_pixel.x + wave.half_pixel.y * max(distance, view.depth_range.x);
+    return max(wave.core, pixel);
 }
 
-fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f) -> f32 {
+fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f, distance: f32) -> f32 {
     if (!core_grows) {
         return 0.0;
     }
     let grown = core_at(wave, ray.middle + range.y);
-    return log(grown / core_at(wave, ray.middle + range.x));
+    let least = 0.5 * sqrt(wave.tolerance) * distance;
+    return log(max(grown / max(core_at(wave, ray.middle + range.x), least), 1.0));
 }
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
@@ -468,7 +470,7 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
     let distance = sqrt(max(dot(near, near) - bend * bend, 0.0) + nearest_core * nearest_core);
     let span = range.y - range.x;
     let length_x = span * abs(ray.direction.x);
-    let growth = core_growth(wave, ray, range);
+    let growth = core_growth(wave, ray, range, distance);
     let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 0.8 * growth * inverseSqrt(wave.tolerance)));
     let cuts = ceil(clamp(wanted, 1.0, MAX_CUTS));
     var energy = 0.0;

@@ -170,7 +170,8 @@ fn bezier(first: u32, degree: u32, s: f32) -> vec3f {
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
-    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
+    let pixel = wave.half_pixel.x + wave.half_pixel.y * max(distance, view.depth_range.x);
+    return max(wave.core, pixel);
 }
 
 fn curve_at(wave: u32, s: f32) -> vec3f {
@@ -180,6 +181,44 @@ fn curve_at(wave: u32, s: f32) -> vec3f {
         p += vec3f(0.0, noise_at(wave, s));
     }
     return p;
+}
+
+fn de_boor_at(s: f32) -> vec3f {
+    var a = points[0];
+    var b = points[0];
+    var c = points[0];
+    var d = points[0];
+    var low = vec3f(0.0);
+    var high = vec3f(0.0);
+    for (var i = max(order, 1u) - 1u; i < point_count; i++) {
+        if (i < order || knots[i] <= s) {
+            a = points[max(i, 3u) - 3u];
+            b = points[max(i, 2u) - 2u];
+            c = points[max(i, 1u) - 1u];
+            d = points[i];
+            low = vec3f(knots[max(i, 2u) - 2u], knots[max(i, 1u) - 1u], knots[i]);
+            high = vec3f(knots[i + 1u], knots[i + 2u], knots[i + 3u]);
+        }
+    }
+    if (order >= 4u) {
+        a = mix(a, b, part_between(s, low.x, high.x));
+        b = mix(b, c, part_between(s, low.y, high.y));
+        c = mix(c, d, part_between(s, low.z, high.z));
+    }
+    else {
+        a = b;
+        b = c;
+        c = d;
+    }
+    if (order >= 3u) {
+        a = mix(a, b, part_between(s, low.y, high.x));
+        b = mix(b, c, part_between(s, low.z, high.y));
+    }
+    else {
+        a = b;
+        b = c;
+    }
+    return mix(a, b, part_between(s, low.z, high.x));
 }
 
 fn density(wave: u32, model: RayWave, c: Constants, ray: WaveRay, t: f32) -> f32 {
@@ -250,6 +289,10 @@ fn knot_part(knots: u32, i: u32, width: u32, s: f32) -> f32 {
     let start = wave_data[knots + i];
     let length = wave_data[knots + i + width] - start;
     return select(0.0, (s - start) / length, length > 0.0);
+}
+
+fn knot_share(part: f32, span: f32) -> f32 {
+    return select(0.0, part / span, span > 0.0);
 }
 
 fn knot_span(knots: u32, order: u32, count: u32, s: f32) -> u32 {
@@ -385,7 +428,10 @@ fn place_at(wave: u32, s: f32) -> vec3f {
         return sum + power * s * points[degree];
     }
     if (curve_kind == CURVE_B_SPLINE) {
-        return spline_at(s);
+        if (de_boor) {
+            return de_boor_at(s);
+        }
+        return printed_spline_at(s);
     }
     return curve_at(wave, s);
 }
@@ -393,6 +439,36 @@ fn place_at(wave: u32, s: f32) -> vec3f {
 fn point_at(first: u32, index: u32) -> vec3f {
     let at = first + 3u * index;
     return vec3f(wave_data[at], wave_data[at + 1u], wave_data[at + 2u]);
+}
+
+fn printed_spline_at(s: f32) -> vec3f {
+    let at = min(s, 0.99999994);
+    var basis: array<f32, 20>;
+    for (var i = 0u; i < point_count + order - 1u; i++) {
+        basis[i] = select(0.0, 1.0, knots[i] <= at && at < knots[i + 1u]);
+    }
+    for (var i = 0u; i < point_count + order - 2u; i++) {
+        basis[i] = raised(i, 2u, at, basis[i], basis[i + 1u]);
+    }
+    if (order >= 3u) {
+        for (var i = 0u; i < point_count + order - 3u; i++) {
+            basis[i] = raised(i, 3u, at, basis[i], basis[i + 1u]);
+        }
+    }
+    if (order >= 4u) {
+        for (var i = 0u; i < point_count + order - 4u; i++) {
+            basis[i] = raised(i, 4u, at, basis[i], basis[i + 1u]);
+        }
+    }
+    var sum = vec3f(0.0);
+    for (var i = 0u; i < point_count; i++) {
+        sum += basis[i] * points[i];
+    }
+    return sum;
+}
+
+fn raised(i: u32, k: u32, s: f32, low: f32, high: f32) -> f32 {
+    return knot_share(s - knots[i], knots[i + k - 1u] - knots[i]) * low + knot_share(knots[i + k] - s, knots[i + k] - knots[i + 1u]) * high;
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {
@@ -505,44 +581,6 @@ fn solved_s(wave: u32, x: f32) -> f32 {
     return 0.5 * (low + high);
 }
 
-fn spline_at(s: f32) -> vec3f {
-    var a = points[0];
-    var b = points[0];
-    var c = points[0];
-    var d = points[0];
-    var low = vec3f(0.0);
-    var high = vec3f(0.0);
-    for (var i = max(order, 1u) - 1u; i < point_count; i++) {
-        if (i < order || knots[i] <= s) {
-            a = points[max(i, 3u) - 3u];
-            b = points[max(i, 2u) - 2u];
-            c = points[max(i, 1u) - 1u];
-            d = points[i];
-            low = vec3f(knots[max(i, 2u) - 2u], knots[max(i, 1u) - 1u], knots[i]);
-            high = vec3f(knots[i + 1u], knots[i + 2u], knots[i + 3u]);
-        }
-    }
-    if (order >= 4u) {
-        a = mix(a, b, part_between(s, low.x, high.x));
-        b = mix(b, c, part_between(s, low.y, high.y));
-        c = mix(c, d, part_between(s, low.z, high.z));
-    }
-    else {
-        a = b;
-        b = c;
-        c = d;
-    }
-    if (order >= 3u) {
-        a = mix(a, b, part_between(s, low.y, high.x));
-        b = mix(b, c, part_between(s, low.z, high.y));
-    }
-    else {
-        a = b;
-        b = c;
-    }
-    return mix(a, b, part_between(s, low.z, high.x));
-}
-
 fn trig_sum(first: u32, count: u32, angle: f32) -> f32 {
     let turn = vec2f(cos(angle), sin(angle));
     var at = turn;
@@ -613,6 +651,8 @@ fn collect_reference(@builtin(global_invocation_id) id: vec3u) {
 }
 
 override curve_kind: u32 = 255u;
+
+override de_boor: bool = false;
 
 override has_more: bool = true;
 

@@ -181,7 +181,8 @@ struct WaveView {
 }
 
 fn core_at(wave: RayWave, distance: f32) -> f32 {
-    return max(wave.core, wave.half_pixel.x + wave.half_pixel.y * max(distance, 0.0));
+    let pixel = wave.half_pixel.x + wave.half_pixel.y * max(distance, view.depth_range.x);
+    return max(wave.core, pixel);
 }
 
 fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {

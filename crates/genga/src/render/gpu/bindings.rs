@@ -21,6 +21,8 @@ pub(crate) enum Binding {
     FilteredLayers,
     /// An unsigned-integer texture.
     Uint,
+    /// Layers of unsigned-integer textures.
+    UintLayers,
     /// A depth texture.
     Depth,
     /// A depth texture with layers.
@@ -65,6 +67,11 @@ impl Binding {
             Self::Filtered => texture(wgpu::TextureSampleType::Float { filterable: true }),
             Self::FilteredLayers => wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Float { filterable: true },
+                view_dimension: wgpu::TextureViewDimension::D2Array,
+                multisampled: false,
+            },
+            Self::UintLayers => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Uint,
                 view_dimension: wgpu::TextureViewDimension::D2Array,
                 multisampled: false,
             },

@@ -63,6 +63,7 @@ impl StrokePass {
                 (2, strokes.links.as_entire_binding()),
                 (3, strokes.ranks[LinkPass::RANKED].as_entire_binding()),
                 (4, strokes.places.as_entire_binding()),
+                (5, targets.marks.as_entire_binding()),
             ],
         );
         let draw = |pass: &mut wgpu::RenderPass<'_>, pipeline| {

@@ -373,6 +373,7 @@ impl WavePass {
                 ("is_even", number(kind.is_even)),
                 ("has_more", number(kind.has_more)),
                 ("thins", number(kind.thins)),
+                ("de_boor", number(kind.de_boor)),
                 ("keeps_energy", number(keeps_energy)),
             ];
             let module = shader(device, "waves_reference", wgsl);

@@ -14,7 +14,7 @@ use crate::render::{
 };
 use crate::scene::{
     Drawing, FIELD_SIZE, Highlight, HighlightBlend, HighlightFrame, HighlightTone, Image, Moment,
-    NORMAL_MAP_SIZE, Placed, Placement, Pose, Proxy, ProxyShape, Scene,
+    NORMAL_MAP_SIZE, Placed, Placement, Pose, Proxy, ProxyShape, Scene, nodes_below,
 };
 use crate::style::{BlendSpace, Style};
 
@@ -34,7 +34,7 @@ pub(crate) struct HighlightSets<'a> {
 
 impl<'a> HighlightSets<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        let under = scene.highlights.iter().map(|h| h.under.map(|top| below(scene, top)));
+        let under = scene.highlights.iter().map(|h| h.under.map(|top| nodes_below(scene, top)));
         Self { scene, sets: vec![Vec::new()], under: under.collect(), warnings: Vec::new() }
     }
 
@@ -79,21 +79,6 @@ impl<'a> HighlightSets<'a> {
         }
         (self.sets, warnings)
     }
-}
-
-/// Which nodes are `top` or hang under it.
-fn below(scene: &Scene, top: usize) -> Vec<bool> {
-    let mut result = vec![false; scene.nodes.len()];
-    let mut todo = vec![top];
-    while let Some(index) = todo.pop() {
-        let (Some(flag), Some(node)) = (result.get_mut(index), scene.nodes.get(index)) else {
-            continue;
-        };
-        if !std::mem::replace(flag, true) {
-            todo.extend(&node.children);
-        }
-    }
-    result
 }
 
 /// The highlights of a prepared scene.
@@ -141,9 +126,9 @@ impl Highlights {
             },
         });
         let layers = layers.collect();
-        let fields = drawings.iter().map(|drawing| half_field(drawing));
+        let fields = drawings.iter().map(|drawing| packed_field(drawing));
         let fields =
-            layered(device, queue, FIELD_SIZE, wgpu::TextureFormat::R16Float, fields.collect());
+            layered(device, queue, FIELD_SIZE, wgpu::TextureFormat::R32Uint, fields.collect());
         let masks = masks.iter().map(|mask| mask_texels(mask)).collect();
         let masks = layered(device, queue, MASK_SIZE, wgpu::TextureFormat::R8Unorm, masks);
         let side = NORMAL_MAP_SIZE + 2;
@@ -389,10 +374,17 @@ fn layer_of<'a, T: PartialEq>(known: &mut Vec<&'a T>, item: &'a T) -> usize {
     })
 }
 
-fn half_field(drawing: &Drawing) -> Vec<u8> {
+/// Each value as a signed 16-bit fraction, with its right neighbour in the upper half: a pixel needs
+/// two loads for the four values round it.
+fn packed_field(drawing: &Drawing) -> Vec<u8> {
     // Validation has refused empty drawings.
     let field = drawing.distance_field().unwrap_or_default();
-    field.iter().flat_map(|&d| half::f16::from_f32(d).to_le_bytes()).collect()
+    let fraction = |d: &f32| u32::from((d.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
+    let pairs = field.chunks(FIELD_SIZE).flat_map(|row| {
+        let next = row.iter().skip(1).chain(row.last());
+        row.iter().zip(next).map(|(left, right)| fraction(left) | fraction(right) << 16)
+    });
+    pairs.flat_map(u32::to_le_bytes).collect()
 }
 
 /// A picture's luminance times alpha, on a grid of `MASK_SIZE`².

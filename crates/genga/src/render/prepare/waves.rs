@@ -91,6 +91,7 @@ pub(crate) struct ReferenceKind {
     pub(crate) is_even: bool,
     pub(crate) has_more: bool,
     pub(crate) thins: bool,
+    pub(crate) de_boor: bool,
 }
 
 impl ReferenceKind {
@@ -103,6 +104,7 @@ impl ReferenceKind {
         is_even: false,
         has_more: true,
         thins: true,
+        de_boor: true,
     };
 
     fn of(waves: &[GpuWave], method: WaveMethod) -> Self {
@@ -131,6 +133,7 @@ impl ReferenceKind {
             is_even: wave.flags & gpu::WAVE_EVEN != 0,
             has_more: wave.profile_count > 0 || wave.swell != Vec2::ZERO || wave.attenuation > 0.0,
             thins: matches!(method, WaveMethod::Simpson { thinning: 2.., .. }),
+            de_boor: matches!(method, WaveMethod::Simpson { de_boor: true, .. }),
         }
     }
 }
@@ -474,7 +477,7 @@ pub(crate) fn view_values(
         if is_orthographic { (eye + corner, -back) } else { (eye, corner - back) };
     let (reference_points, reference_thinning) = match data.method {
         WaveMethod::Exact => (0, 0),
-        WaveMethod::Simpson { points, thinning } => (points, thinning),
+        WaveMethod::Simpson { points, thinning, .. } => (points, thinning),
     };
     let vec4 = |v: DVec3| v.as_vec3().extend(0.0);
     let mut flags = if is_orthographic { gpu::WAVE_VIEW_ORTHOGRAPHIC } else { 0 };

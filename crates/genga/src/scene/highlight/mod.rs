@@ -8,6 +8,7 @@
 mod angles;
 mod distance;
 mod drawing;
+mod fit;
 mod free;
 mod panorama;
 mod proxy;
@@ -28,6 +29,7 @@ pub use panorama::{AngleKey, PanoramaPlacement};
 pub use proxy::{Proxy, ProxyMesh};
 
 pub(crate) use distance::FIELD_SIZE;
+pub(crate) use fit::nodes_below;
 pub(crate) use proxy::{NORMAL_MAP_SIZE, ProxyShape, ray_triangle};
 
 use super::Image;

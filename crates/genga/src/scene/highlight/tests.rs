@@ -6,7 +6,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use glam::{Quat, Vec3};
 
 use super::*;
-use crate::scene::Scene;
+use crate::scene::{Mesh, Node, Primitive, Scene};
 
 fn moment(light: Vec3, view: Vec3) -> Moment {
     Moment { light: light.normalize(), view: view.normalize() }
@@ -180,6 +180,79 @@ fn a_ball_is_seen_where_the_line_of_sight_meets_it() {
     assert!(seen(Vec3::new(3.0, 2.0, 0.7)).distance(Vec3::new(3.0, 2.0, 0.0)) < 1e-6);
     let sphere = Proxy::Sphere { center: Vec3::Y };
     assert_eq!(sphere.seen(&twice, Vec3::X, Vec3::Z), Vec3::X);
+}
+
+/// A scene of one object, with a highlight on it.
+fn scene_of(mesh: Primitive) -> Scene {
+    let mesh = Mesh { primitives: vec![mesh], ..Mesh::default() };
+    let node = Node { mesh: Some(0), ..Node::default() };
+    Scene {
+        meshes: vec![mesh],
+        nodes: vec![node],
+        roots: vec![0],
+        highlights: vec![Highlight::default()],
+        ..Scene::default()
+    }
+}
+
+#[test]
+fn a_ball_is_fitted_to_the_surfaces_round_it() {
+    // The front cap of a ball, as hair or a shield is.
+    let at = Vec3::new(0.3, 1.0, -0.2);
+    let mut cap = crate::shapes::uv_sphere(96, 48, 0.5);
+    cap.positions.iter_mut().for_each(|p| *p += at);
+    let front: Vec<u32> = cap
+        .indices
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .filter(|t| t.iter().all(|&i| cap.positions[i as usize].z > at.z + 0.2))
+        .flatten()
+        .copied()
+        .collect();
+    cap.indices = front;
+    let scene = scene_of(cap);
+    let fitted = |center| scene.fitted_ball(&scene.highlights[0], center);
+    let Some(Proxy::Ball { center, radius }) = fitted(None) else { panic!("no ball") };
+    assert!(center.distance(at) < 0.02 && (radius - 0.5).abs() < 0.02, "{center}, {radius}");
+    let Some(Proxy::Ball { center, radius }) = fitted(Some(at)) else { panic!("no ball") };
+    assert!(center == at && (radius - 0.5).abs() < 1e-3, "{radius}");
+}
+
+#[test]
+fn what_is_far_from_the_centre_hardly_moves_the_fitted_radius() {
+    // One eye has the material of the other.
+    let at = Vec3::X * 0.06;
+    let mut eyes = crate::shapes::uv_sphere(48, 24, 0.02);
+    let mut other = eyes.clone();
+    other.positions.iter_mut().for_each(|p| *p += at);
+    let first = eyes.positions.len() as u32;
+    eyes.indices.extend(other.indices.iter().map(|i| first + i));
+    eyes.positions.extend(other.positions);
+    eyes.normals.extend(other.normals);
+    let scene = scene_of(eyes);
+    let ball = scene.fitted_ball(&scene.highlights[0], Some(Vec3::ZERO));
+    let Some(Proxy::Ball { radius, .. }) = ball else { panic!("no ball") };
+    assert!((0.02..0.026).contains(&radius), "{radius}");
+}
+
+#[test]
+fn balls_are_fitted_to_flat_and_to_broken_surfaces_too() {
+    let plate = |corners: [Vec3; 3]| Primitive {
+        positions: corners.to_vec(),
+        normals: vec![Vec3::Z; 3],
+        indices: vec![0, 1, 2],
+        ..Primitive::default()
+    };
+    let scene = scene_of(plate([Vec3::ZERO, Vec3::X, Vec3::Y]));
+    let fitted = scene.fitted_ball(&scene.highlights[0], None);
+    assert!(fitted.as_ref().is_none_or(|ball| ball.validate().is_ok()), "{fitted:?}");
+    let aside = scene.fitted_ball(&scene.highlights[0], Some(Vec3::Z));
+    assert!(matches!(aside, Some(Proxy::Ball { radius, .. }) if radius > 1.0 && radius < 1.5));
+    for broken in [[Vec3::ZERO; 3], [Vec3::NAN, Vec3::X, Vec3::Y]] {
+        let scene = scene_of(plate(broken));
+        assert_eq!(scene.fitted_ball(&scene.highlights[0], None), None);
+    }
 }
 
 #[test]
