@@ -383,3 +383,52 @@ fn a_sky_lights_what_looks_up() {
     }
     assert!(seen > 8000, "{seen}");
 }
+
+#[test]
+fn shadows_are_fine_near_the_eye_on_a_floor_to_the_horizon() {
+    let mut scene = Builder::new();
+    let mut floor = shapes::plane(Vec2::splat(600.0));
+    floor.positions.iter_mut().for_each(|p| *p = Vec3::new(p.x, 0.0, -p.y));
+    floor.normals.iter_mut().for_each(|n| *n = Vec3::Y);
+    scene.object("floor", floor, None, Transform::default());
+    let half = Vec3::new(0.1, 0.6, 0.1);
+    let middles = [[-0.8, -3.0], [0.6, -9.0], [1.0, -30.0]].map(|[x, z]| Vec3::new(x, 0.6, z));
+    for middle in middles {
+        scene.object("post", shapes::cuboid(2.0 * half), None, moved(middle.x, middle.y, middle.z));
+    }
+    let sun = Vec3::new(-2.0, 1.6, 1.0);
+    scene.light(light(LightKind::Directional, 1.0), sun);
+    let mut view = View { supersample: 1, ..perspective_view([320, 200], 40.0, 0.0) };
+    view.camera.world_from_camera =
+        Affine3A::from_translation(Vec3::Y * 1.5) * Affine3A::from_rotation_x(-0.2);
+    let picture = draw(&scene.build(), &shadowed(""), &view);
+    // Whether a ray meets a post, by its slabs.
+    let meets = |from: Vec3, way: Vec3| {
+        middles.iter().any(|middle| {
+            let [a, b] = [-half, half].map(|side| (*middle + side - from) / way);
+            let (enter, leave) = (a.min(b).max_element(), a.max(b).min_element());
+            enter < leave && leave > 0.0
+        })
+    };
+    // Dark, light, or nothing of the floor.
+    let expected = |x: u32, y: u32| {
+        let [from, way] = view.ray(Vec2::new(x as f32 + 0.5, y as f32 + 0.5));
+        let place = from - way * (from.y / way.y);
+        let is_floor = way.y < 0.0 && place.distance(from) < 60.0 && !meets(from, way);
+        is_floor.then(|| meets(place + Vec3::Y * 1e-4, sun))
+    };
+    let (mut shaded, mut wrong) = (0, 0);
+    for y in 1..199 {
+        for x in 1..319 {
+            let around = (0..9).map(|i| expected(x + i % 3 - 1, y + i / 3 - 1));
+            let Some(is_dark) = expected(x, y) else { continue };
+            if !around.into_iter().all(|other| other == Some(is_dark)) {
+                continue;
+            }
+            shaded += u32::from(is_dark);
+            wrong += u32::from((picture.at(x, y)[0] < 128) != is_dark);
+        }
+    }
+    assert!(shaded > 300, "only {shaded} pixels lie in shadows");
+    assert_eq!(wrong, 0, "of {shaded} pixels in shadows");
+}

@@ -1,15 +1,64 @@
 //! Sheets of hatching, after figures of Suzuki 2004: patterns by tone, mappings in motion, near and
-//! far, and the materials that have presets.
+//! far, the materials that have presets, and a picture of the user's.
 
+use std::fs;
 use std::path::Path;
 
 use super::sheet::{self, Cell, Sheet};
-use crate::Result;
+use crate::{Error, Result};
 
 /// Draws all sheets into the folder.
 pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
-    let all = [tones(), mappings(), distances(), materials()];
-    sheet::draw(genga, &all, &root.join("assets/models"), folder)
+    let all = [tones(), mappings(), distances(), materials(), pictures()];
+    let beside = root.join("assets/models");
+    let picture = beside.join(PICTURE);
+    let wrong = |e: image::ImageError| Error::new(format!("{}: {e}", picture.display()));
+    hand_drawn().save(&picture).map_err(wrong)?;
+    let drawn = sheet::draw(genga, &all, &beside, folder);
+    let removed = fs::remove_file(&picture).map_err(Error::io("cannot remove", &picture));
+    drawn.and(removed)
+}
+
+/// The pattern of [`pictures`], beside the scenes while they are drawn.
+const PICTURE: &str = ".sheet.strokes.png";
+
+/// Brush strokes as somebody may have drawn them, tiled: thick in the middle, no two alike.
+fn hand_drawn() -> image::GrayImage {
+    const SIDE: u32 = 256;
+    const STROKES: u32 = 22;
+    let side = f64::from(SIDE);
+    // Evenly spread numbers in [0, 1).
+    let spread = |i: u32, step: f64| (f64::from(i) * step).fract();
+    image::GrayImage::from_fn(SIDE, SIDE, |x, y| {
+        let [x, y] = [x, y].map(|v| f64::from(v) + 0.5);
+        let mut dark = 0.0_f64;
+        for i in 0..STROKES {
+            let middle = side * (f64::from(i) + 0.5 * spread(i, 0.618_034)) / f64::from(STROKES);
+            let length = side * (0.4 + 0.35 * spread(i, 0.754_878));
+            let part = (x - side * spread(i, 0.569_84)).rem_euclid(side) / length;
+            if part < 1.0 {
+                let half = (1.5 + 2.0 * spread(i, 0.414_214)) * (6.0 * part * (1.0 - part)).sqrt();
+                let line = middle + (spread(i, 0.302_776) - 0.5) * 9.0 * (part - 0.5);
+                let away = (y - line + 0.5 * side).rem_euclid(side) - 0.5 * side;
+                dark = dark.max((half - away.abs() + 0.5).clamp(0.0, 1.0));
+            }
+        }
+        image::Luma([(255.0 * (1.0 - dark)).round() as u8])
+    })
+}
+
+/// A picture of the user's in the three mappings, and from near and far.
+fn pictures() -> Sheet {
+    let cell = |mapping: &str, azimuth: f32, zoom: f32| {
+        let hatch = format!(
+            "pattern = \"image\"\nimage = \"{PICTURE}\"\nmapping = \"{mapping}\"\nspacing = 90\n\
+             tones = [{{ at = 0.1, lum = 0.24 }}, {{ at = 0.66, lum = 0.76 }}]"
+        );
+        cell("head.glb", &hatch, 320, camera(azimuth, 8.0, zoom))
+    };
+    let mut cells: Vec<Cell> = ["uv", "screen", "surface"].map(|m| cell(m, 25.0, 1.2)).into();
+    cells.extend([0.5, 1.8, 4.5].map(|zoom| cell("surface", 40.0, zoom)));
+    Sheet { name: "hatching-pictures", cell: [320, 320], columns: 3, cells }
 }
 
 /// A model under a hatching, in a picture of a height.

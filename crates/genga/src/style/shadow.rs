@@ -14,7 +14,8 @@ pub struct Shadow {
     pub tone: f32,
     /// Whether shadows fall on surfaces.
     pub receive: bool,
-    /// Texels along a side of a light's shadow map; more make finer shadows of large scenes.
+    /// Most texels along a side of a light's shadow map. Small pictures need fewer, and take fewer;
+    /// parallel light onto deep scenes has several maps, from near to far.
     #[schemars(range(min = 256, max = 8192))]
     pub resolution: u32,
 }

@@ -167,6 +167,8 @@ const LIGHT_SPOT: u32 = 2u;
 
 const LONGEST_STEP: f32 = 1.5;
 
+const LOOKED_AT: f32 = 7.0;
+
 const LOOK_BASE_FIXED: u32 = 4u;
 
 const LOOK_BASE_NONE: u32 = 8u;
@@ -176,6 +178,8 @@ const LOOK_RAMP_IMAGE: u32 = 2u;
 const LOOK_SMOOTH_RAMP: u32 = 1u;
 
 const LOOK_UNSHADOWED: u32 = 16u;
+
+const MAX_CASCADES: u32 = 4u;
 
 const MAX_CLEARANCE: f32 = 200.0;
 
@@ -1155,7 +1159,7 @@ fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -
     if (lights[light].shadow_maps == 0u) {
         return 1.0;
     }
-    let map = map_of(light, receiver.p_in_world);
+    let map = map_of(light, receiver);
     let footing = footing_of(map, receiver, to_light);
     let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
@@ -1249,10 +1253,27 @@ fn look_index(in: Surface, base: vec3f) -> u32 {
     return drawn.look_first + combination;
 }
 
-fn map_of(light: u32, p_in_world: vec3f) -> u32 {
+fn map_of(light: u32, receiver: Receiver) -> u32 {
+    let p_in_world = receiver.p_in_world;
     let first = lights[light].shadow_first;
-    if (lights[light].shadow_maps == 1u) {
+    let count = lights[light].shadow_maps;
+    if (count == 1u) {
         return first;
+    }
+    if (lights[light].kind == LIGHT_DIRECTIONAL) {
+        let spread = 0.5 * (length(receiver.px) + length(receiver.py));
+        var cascade = count - 1u;
+        var is_held = false;
+        for (var i = 1u; i <= MAX_CASCADES; i++) {
+            let finer = max(count, i) - i;
+            let texels = shadow_maps[first + finer].texels;
+            let at = place_in_map(first + finer, p_in_world);
+            let inside = min(min(at.x, at.y), texels - max(at.x, at.y)) - LOOKED_AT;
+            let is_roomy = inside > spread / shadow_maps[first + finer].texel_m;
+            cascade = select(cascade, finer, is_roomy || (inside > 0.0 && !is_held));
+            is_held = is_held || inside > 0.0;
+        }
+        return first + cascade;
     }
     let d = p_in_world - lights[light].position.xyz;
     let a = abs(d);

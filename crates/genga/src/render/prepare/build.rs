@@ -404,6 +404,7 @@ impl<'a> Builder<'a> {
                 lights.len()
             ));
         }
+        let [wanted, _] = wanted;
         if wanted > shadows::MAX_MAPS {
             warnings.push(format!(
                 "the scene's lights need {wanted} shadow maps (one a light, six a point light), more \

@@ -16,8 +16,15 @@ use crate::style::Style;
 
 /// Most shadow maps of one frame, as in `shaders/lib/bindings.wesl`.
 pub(crate) const MAX_MAPS: usize = 16;
+/// Most maps of a light whose rays are parallel, as in `shaders/shading/shadow.wesl`.
+pub(crate) const MAX_CASCADES: usize = 4;
+/// How many times as far as its beginning a cascade ends, where there are enough of them: texels are
+/// the size of pixels at its end, and so much larger at its beginning.
+const CASCADE_LENGTH: f64 = 2.5;
+/// How far the nearest cascade begins before the end of the farthest one at most.
+const DEEPEST: f64 = 512.0;
 /// Texels round what a map must show, for the taps and the snapping of its origin.
-const BORDER: f64 = 6.0;
+const BORDER: f64 = 8.0;
 
 /// The shadow maps of a prepared scene.
 pub(crate) struct Shadows {
@@ -36,17 +43,17 @@ pub(crate) struct Shadows {
 }
 
 impl Shadows {
-    /// Makes as many maps as the scene's lights need.
+    /// Makes as many maps as the scene's lights need: see [`maps_needed`].
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layouts: &Layouts,
         draws: &wgpu::Buffer,
-        wanted: usize,
+        [wanted, parallel]: [usize; 2],
         resolution: u32,
     ) -> Self {
         use wgpu::{BufferUsages as Usage, TextureUsages};
-        let count = wanted.min(MAX_MAPS);
+        let count = (wanted + parallel * (MAX_CASCADES - 1)).min(MAX_MAPS);
         let resolution = if count == 0 { 1 } else { resolution };
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("shadow maps"),
@@ -120,6 +127,10 @@ impl Shadows {
     ) -> Vec<u32> {
         let texels = used_texels(view).min(self.resolution);
         let mut maps: Vec<ShadowMap> = Vec::new();
+        let needed: usize = lights.iter().map(|light| light.shadow_maps as usize).sum();
+        let mut spare = self.layers.len().saturating_sub(needed);
+        let is_parallel = |l: &&mut Light| l.kind == LIGHT_DIRECTIONAL && l.shadow_maps > 0;
+        let mut parallel_left = lights.iter_mut().filter(is_parallel).count();
         for light in lights {
             let count = std::mem::take(&mut light.shadow_maps);
             let Some(bounds) = prepared.bounds else { continue };
@@ -129,7 +140,16 @@ impl Shadows {
             light.shadow_first = maps.len() as u32;
             light.shadow_maps = count;
             match light.kind {
-                LIGHT_DIRECTIONAL => maps.push(parallel(light, &bounds, projected, texels)),
+                LIGHT_DIRECTIONAL => {
+                    let most = 1 + (spare / parallel_left.max(1)).min(MAX_CASCADES - 1);
+                    parallel_left = parallel_left.saturating_sub(1);
+                    let slices = slices(&bounds, projected, most);
+                    spare -= slices.len() - 1;
+                    light.shadow_maps = slices.len() as u32;
+                    maps.extend(
+                        slices.iter().map(|&s| parallel(light, &bounds, projected, s, texels)),
+                    );
+                }
                 kind => {
                     // Of the size of a pixel where the scene is.
                     let center = 0.5 * (bounds.min + bounds.max);
@@ -169,27 +189,59 @@ fn outer_angle(light: &Light) -> f64 {
     f64::from(light.factors.w).clamp(-1.0, 1.0).acos()
 }
 
-/// How many maps the lights of a scene need, if the style has shadows.
-pub(crate) fn maps_needed(scene: &Scene, pose: &Pose, style: &Style) -> usize {
+/// How many maps the lights of a scene need, if the style has shadows, and how many of these are of
+/// parallel rays, which may take more.
+pub(crate) fn maps_needed(scene: &Scene, pose: &Pose, style: &Style) -> [usize; 2] {
     if !style.paint.shadow.enabled {
-        return 0;
+        return [0; 2];
     }
     let placed = super::lights::placed_lights(scene, pose, &style.light);
     let lights = super::lights::lights_in_view(&placed, &style.light, &Affine3A::IDENTITY);
-    lights.iter().map(|light| light.shadow_maps as usize).sum()
+    let parallel =
+        lights.iter().filter(|l| l.kind == LIGHT_DIRECTIONAL && l.shadow_maps > 0).count();
+    [lights.iter().map(|light| light.shadow_maps as usize).sum(), parallel]
 }
 
-/// Parallel rays onto what is in view of the scene.
+/// Depths between which each cascade lies, from near to far: at most `most`, and one where the scene is
+/// about as near everywhere (Engel 2006).
+fn slices(bounds: &Aabb, projected: &Projected, most: usize) -> Vec<[f64; 2]> {
+    const ALL: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+    let clip_from_world = projected.clip_from_world.as_dmat4();
+    let seen = in_view(&corners(bounds), clip_from_world, ALL);
+    let depths = seen.iter().map(|p| clip_from_world.row(3).dot(p.extend(1.0)));
+    let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(n, f), d| (n.min(d), f.max(d)));
+    let near = near.max(far / DEEPEST);
+    if projected.orthographic || !(near > 0.0 && far > near && far.is_finite()) {
+        return vec![ALL];
+    }
+    let count = ((far / near).ln() / CASCADE_LENGTH.ln()).ceil().clamp(1.0, most.max(1) as f64);
+    let end = |i: usize| near * (far / near).powf(i as f64 / count);
+    let count = count as usize;
+    let slice = |i: usize| {
+        // They overlap by what a pixel may reach over.
+        let from = if i == 0 { f64::NEG_INFINITY } else { 0.85 * end(i) };
+        [from, if i + 1 == count { f64::INFINITY } else { end(i + 1) }]
+    };
+    (0..count).map(slice).collect()
+}
+
+/// Parallel rays onto what is in view of the scene between two depths.
 ///
 /// The grid of texels stands still in the world: its axes come from the light alone, its texels
 /// have one of few sizes, and its origin is a whole number of them. So edges do not swim when the
 /// camera moves.
-fn parallel(light: &Light, bounds: &Aabb, projected: &Projected, texels: u32) -> ShadowMap {
+fn parallel(
+    light: &Light,
+    bounds: &Aabb,
+    projected: &Projected,
+    slice: [f64; 2],
+    texels: u32,
+) -> ShadowMap {
     let back = light.direction.truncate().as_dvec3().normalize_or(DVec3::Y);
     let axes = axes_of(back);
     let in_light = |p: DVec3| DVec3::new(p.dot(axes[0]), p.dot(axes[1]), p.dot(back));
     let corners = corners(bounds);
-    let mut seen = in_view(&corners, projected.clip_from_world.as_dmat4());
+    let mut seen = in_view(&corners, projected.clip_from_world.as_dmat4(), slice);
     if seen.is_empty() {
         seen = corners.to_vec();
     }
@@ -298,28 +350,39 @@ fn corners(bounds: &Aabb) -> [DVec3; 8] {
     })
 }
 
-/// The corners of the part of a box that a view shows; none if it shows none of it.
-fn in_view(corners: &[DVec3; 8], clip_from_world: DMat4) -> Vec<DVec3> {
+/// The corners of the part of a box that a view shows between two depths; none if it shows none of it.
+fn in_view(corners: &[DVec3; 8], clip_from_world: DMat4, [from, to]: [f64; 2]) -> Vec<DVec3> {
     let rows = clip_from_world.transpose();
     let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
-    let planes = [w + x, w - x, w + y, w - y, w - z];
+    let mut planes = vec![w + x, w - x, w + y, w - y, w - z];
+    if from.is_finite() {
+        planes.push(w - DVec4::W * from);
+    }
+    if to.is_finite() {
+        planes.push(DVec4::W * to - w);
+    }
     let sides =
         [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
     let mut seen = Vec::new();
     for side in sides {
         let mut polygon: Vec<DVec3> = side.iter().map(|&corner| corners[corner]).collect();
-        for plane in planes {
+        for plane in planes.iter().copied() {
             polygon = clipped(&polygon, plane);
         }
         seen.extend(polygon);
     }
-    // From inside of the box, the view's own corners at the near plane.
+    // Inside of the box, the view's own corners at its ends: reverse-Z depth is near / w.
     let (low, high) = (corners[0], corners[7]);
     let world_from_clip = clip_from_world.inverse();
-    for [x, y] in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
-        let p = world_from_clip.project_point3(DVec3::new(x, y, 1.0));
-        if p.is_finite() && p.cmpge(low).all() && p.cmple(high).all() {
-            seen.push(p);
+    let near = z.w;
+    let ends = [from, to].into_iter().filter(|&depth| depth.is_finite() && depth > near);
+    let ends = ends.map(|depth| near / depth).chain((!from.is_finite()).then_some(1.0));
+    for depth in ends {
+        for [x, y] in [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]] {
+            let p = world_from_clip.project_point3(DVec3::new(x, y, depth));
+            if p.is_finite() && p.cmpge(low).all() && p.cmple(high).all() {
+                seen.push(p);
+            }
         }
     }
     seen
@@ -343,104 +406,5 @@ fn clipped(polygon: &[DVec3], plane: DVec4) -> Vec<DVec3> {
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::{Vec3, Vec4};
-
-    use super::*;
-    use crate::render::ViewCamera;
-    use crate::scene::Projection;
-
-    fn sun(direction: Vec3) -> Light {
-        let mut light: Light = bytemuck::Zeroable::zeroed();
-        light.direction = direction.normalize_or(Vec3::Y).extend(0.0);
-        light.kind = LIGHT_DIRECTIONAL;
-        light
-    }
-
-    fn seen_from(x: f32, bounds: &Aabb) -> Projected {
-        let camera = ViewCamera {
-            world_from_camera: Affine3A::from_translation(Vec3::new(x, 0.5, 6.0)),
-            projection: Projection::Perspective { fov_y: 0.4 },
-            near: 0.1,
-        };
-        Projected::new(&camera, [200, 100], Some(*bounds))
-    }
-
-    const BOUNDS: Aabb = Aabb { min: Vec3::new(-9.0, 0.0, -9.0), max: Vec3::new(9.0, 2.0, 3.0) };
-
-    #[test]
-    fn what_is_in_view_lies_in_the_map() {
-        for direction in [Vec3::new(0.3, 1.0, 0.2), Vec3::Y, Vec3::new(-1.0, 0.1, 0.0)] {
-            let projected = seen_from(0.3, &BOUNDS);
-            let map = parallel(&sun(direction), &BOUNDS, &projected, 512);
-            let mut inside = 0;
-            for i in 0..20_u8 {
-                for j in 0..20_u8 {
-                    let (x, z) = (0.9 * f32::from(i) - 8.55, 0.6 * f32::from(j) - 8.7);
-                    let p = Vec3::new(x, 0.0, z);
-                    let clip = projected.clip_from_world * p.extend(1.0);
-                    if clip.x.abs() > clip.w || clip.y.abs() > clip.w || clip.z > clip.w {
-                        continue;
-                    }
-                    inside += 1;
-                    let ndc = (map.clip_from_world * p.extend(1.0)).truncate();
-                    assert!(ndc.x.abs() < 1.0 && ndc.y.abs() < 1.0, "{p} is at {ndc}");
-                    assert!(ndc.z > 0.0 && ndc.z < 1.0, "{p} is at {ndc}");
-                }
-            }
-            assert!(inside > 10, "the view shows something: {inside}");
-        }
-    }
-
-    #[test]
-    fn the_grid_of_texels_stands_still_when_the_camera_moves() {
-        let light = sun(Vec3::new(0.3, 1.0, 0.2));
-        let texel_of = |x: f32| {
-            let map = parallel(&light, &BOUNDS, &seen_from(x, &BOUNDS), 512);
-            let ndc = map.clip_from_world.as_dmat4() * DVec4::new(0.1, 0.2, 0.3, 1.0);
-            let place = (ndc.truncate().truncate() * 0.5 + 0.5) * 512.0;
-            (map.texel_m, place - place.floor())
-        };
-        let (size, first) = texel_of(0.0);
-        for i in 1..30_u8 {
-            let (now, place) = texel_of(0.004 * f32::from(i));
-            if now == size {
-                let off = (place - first).abs();
-                let off = off.min(1.0 - off);
-                assert!(off.max_element() < 0.01, "step {i}: {place} and {first}");
-            }
-        }
-    }
-
-    #[test]
-    fn planes_keep_their_points_in_every_map() {
-        let mut lamp: Light = bytemuck::Zeroable::zeroed();
-        lamp.position = Vec4::new(1.0, 4.0, 2.0, 1.0);
-        lamp.direction = Vec3::new(-0.2, -1.0, -0.3).normalize_or(Vec3::Y).extend(0.0);
-        lamp.factors = Vec4::new(1.0, 0.0, 0.9, 0.7);
-        let all = [
-            parallel(&sun(Vec3::ONE), &BOUNDS, &seen_from(0.0, &BOUNDS), 512),
-            cone(&lamp, &BOUNDS, 512),
-        ];
-        for map in all.into_iter().chain(cube(&lamp, &BOUNDS, 512)) {
-            let normal = Vec3::new(0.2, 0.9, -0.3).normalize_or(Vec3::Y);
-            let p = Vec3::new(0.4, 0.1, -0.7);
-            let other = p + normal.any_orthonormal_vector() * 0.3;
-            let plane = map.clip_from_plane * normal.extend(-normal.dot(p));
-            for point in [p, other] {
-                let clip = map.clip_from_world * point.extend(1.0);
-                let off = plane.dot(clip) / (plane.length() * clip.length());
-                assert!(off.abs() < 1e-4, "{off}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_view_from_inside_sees_its_near_corners() {
-        let bounds = Aabb { min: Vec3::splat(-50.0), max: Vec3::splat(50.0) };
-        let projected = seen_from(0.0, &bounds);
-        let seen = in_view(&corners(&bounds), projected.clip_from_world.as_dmat4());
-        let nearest = seen.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
-        assert!((nearest - 5.9).abs() < 1e-3, "{nearest}");
-    }
-}
+#[path = "shadows_tests.rs"]
+mod tests;
