@@ -56,7 +56,7 @@ pub use wave::{
     WavePlacement, WaveShape, WaveTone,
 };
 
-pub(crate) use highlight::{FIELD_SIZE, NORMAL_MAP_SIZE, ProxyShape, nodes_below};
+pub(crate) use highlight::{FIELD_EXTENT, FIELD_SIZE, NORMAL_MAP_SIZE, ProxyShape, nodes_below};
 
 /// A whole model or set: everything that can be drawn, posed and lit.
 #[derive(Clone, Debug, Default)]

@@ -804,15 +804,12 @@ fn facing_normal(in: Surface, front_facing: bool) -> vec3f {
 }
 
 fn field_distance(layer: u32, u: vec2f) -> f32 {
-    let at = u * vec2f(0.5, -0.5) * (FIELD_SIZE / FIELD_EXTENT) + 0.5 * FIELD_SIZE - 0.5;
-    let inside = clamp(at, vec2f(0.0), vec2f(FIELD_SIZE - 1.0));
+    let at = u * vec2f(0.5, -0.5) * (FIELD_SIZE / FIELD_EXTENT) + 0.5 * FIELD_SIZE;
+    let inside = clamp(at, vec2f(0.5), vec2f(FIELD_SIZE - 0.5));
     let texel = vec2u(inside);
-    let part = inside - vec2f(texel);
-    let below = min(texel.y + 1u, u32(FIELD_SIZE) - 1u);
-    let upper = unpack2x16snorm(textureLoad(drawings, texel, layer, 0).x);
-    let lower = unpack2x16snorm(textureLoad(drawings, vec2u(texel.x, below), layer, 0).x);
-    let both = mix(upper, lower, part.y);
-    return mix(both.x, both.y, part.x);
+    let part = inside - (vec2f(texel) + 0.5);
+    let packed = textureLoad(drawings, texel, layer, 0).x;
+    return unpack2x16snorm(packed).x + dot(unpack4x8snorm(packed).zw, part) * (2.0 * FIELD_EXTENT / FIELD_SIZE);
 }
 
 fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32, salt: u32) -> f32 {

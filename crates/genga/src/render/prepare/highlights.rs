@@ -13,8 +13,8 @@ use crate::render::{
     passes::surface::HighlightVariant,
 };
 use crate::scene::{
-    Drawing, FIELD_SIZE, Highlight, HighlightBlend, HighlightFrame, HighlightTone, Image, Moment,
-    NORMAL_MAP_SIZE, Placed, Placement, Pose, Proxy, ProxyShape, Scene, nodes_below,
+    Drawing, FIELD_EXTENT, FIELD_SIZE, Highlight, HighlightBlend, HighlightFrame, HighlightTone,
+    Image, Moment, NORMAL_MAP_SIZE, Placed, Placement, Pose, Proxy, ProxyShape, Scene, nodes_below,
 };
 use crate::style::{BlendSpace, Style};
 
@@ -374,17 +374,27 @@ fn layer_of<'a, T: PartialEq>(known: &mut Vec<&'a T>, item: &'a T) -> usize {
     })
 }
 
-/// Each value as a signed 16-bit fraction, with its right neighbour in the upper half: a pixel needs
-/// two loads for the four values round it.
+/// Each value as a signed 16-bit fraction, and above it how it grows to the right and downwards, as
+/// signed 8-bit fractions of how far a place moves: a pixel needs one load.
 fn packed_field(drawing: &Drawing) -> Vec<u8> {
     // Validation has refused empty drawings.
     let field = drawing.distance_field().unwrap_or_default();
-    let fraction = |d: &f32| u32::from((d.clamp(-1.0, 1.0) * 32767.0).round() as i16 as u16);
-    let pairs = field.chunks(FIELD_SIZE).flat_map(|row| {
-        let next = row.iter().skip(1).chain(row.last());
-        row.iter().zip(next).map(|(left, right)| fraction(left) | fraction(right) << 16)
-    });
-    pairs.flat_map(u32::to_le_bytes).collect()
+    let value = |x: usize, y: usize| field[y * FIELD_SIZE + x].clamp(-1.0, 1.0);
+    let last = FIELD_SIZE - 1;
+    let texel = 2.0 * FIELD_EXTENT / FIELD_SIZE as f32;
+    let slope = |a: f32, b: f32, texels: usize| {
+        ((b - a) / (texel * texels as f32) * 127.0).round().clamp(-127.0, 127.0) as i8
+    };
+    let mut packed = Vec::with_capacity(4 * field.len());
+    for (y, x) in (0..field.len()).map(|i| (i / FIELD_SIZE, i % FIELD_SIZE)) {
+        let (left, right) = (x.saturating_sub(1), (x + 1).min(last));
+        let (above, below) = (y.saturating_sub(1), (y + 1).min(last));
+        let distance = (value(x, y) * 32767.0).round() as i16;
+        packed.extend(distance.to_le_bytes());
+        packed.extend(slope(value(left, y), value(right, y), right - left).to_le_bytes());
+        packed.extend(slope(value(x, above), value(x, below), below - above).to_le_bytes());
+    }
+    packed
 }
 
 /// A picture's luminance times alpha, on a grid of `MASK_SIZE`².

@@ -157,7 +157,8 @@ impl Topology {
         let is_smooth = smooth_triangles(&whole, &pairs);
         let smooth_normals = smooth_normals(&whole, &welded);
         let curvatures = curvatures(&whole, &welded, &pairs);
-        let deforms = primitives.iter().any(|p| !p.joints.is_empty() || !p.morph_targets.is_empty());
+        let deforms =
+            primitives.iter().any(|p| !p.joints.is_empty() || !p.morph_targets.is_empty());
         let mut edges: Vec<LineEdge> = pairs
             .into_iter()
             .filter_map(|(left, right)| {

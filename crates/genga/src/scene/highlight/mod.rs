@@ -28,7 +28,7 @@ pub use free::{FreeKey, FreePlacement};
 pub use panorama::{AngleKey, PanoramaPlacement};
 pub use proxy::{Proxy, ProxyMesh};
 
-pub(crate) use distance::FIELD_SIZE;
+pub(crate) use distance::{FIELD_EXTENT, FIELD_SIZE};
 pub(crate) use fit::nodes_below;
 pub(crate) use proxy::{NORMAL_MAP_SIZE, ProxyShape, ray_triangle};
 
