@@ -28,41 +28,31 @@ impl Scene {
     #[must_use]
     pub fn pick(&self, pose: &Pose, origin: Vec3, direction: Vec3) -> Option<Hit> {
         let mut nearest: Option<Hit> = None;
-        for (index, node) in self.nodes.iter().enumerate() {
-            let Some(mesh) = node.mesh.and_then(|mesh| self.meshes.get(mesh)) else { continue };
-            if !pose.visible.get(index).copied().unwrap_or(false) {
-                continue;
-            }
-            let world_from_node = pose.world_from_node.get(index).copied().unwrap_or_default();
-            let weights = pose.morph_weights.get(index).map_or(&[][..], Vec::as_slice);
-            let joints = pose.world_from_rest(self, index).unwrap_or_default();
-            for (number, primitive) in mesh.primitives.iter().enumerate() {
-                let material = primitive.material.and_then(|m| self.materials.get(m));
-                let both_sides = material.is_some_and(|material| material.double_sided);
-                let posed = Posed::new(primitive, &world_from_node, &joints, weights);
-                let (triangles, _) = primitive.indices.as_chunks::<3>();
-                for triangle in triangles {
-                    let Some(corners) = posed.corners(triangle) else { continue };
-                    let Some((distance, at)) = ray_triangle(origin, direction, corners) else {
-                        continue;
-                    };
-                    if nearest.is_some_and(|hit| hit.distance <= distance) {
-                        continue;
-                    }
-                    let [a, b, c] = corners;
-                    // Mirrored transforms wind the other way.
-                    let flip = if posed.mirrored { -1.0 } else { 1.0 };
-                    let away = flip * (b - a).cross(c - a).dot(direction) > 0.0;
-                    if away && !both_sides {
-                        continue;
-                    }
-                    let n = posed.normal(triangle, at);
-                    let normal = if away { -n } else { n };
-                    let point = origin + direction * distance;
-                    nearest = Some(Hit { distance, node: index, primitive: number, point, normal });
+        self.visit_posed(pose, &mut |node, number, primitive, posed| {
+            let material = primitive.material.and_then(|m| self.materials.get(m));
+            let both_sides = material.is_some_and(|material| material.double_sided);
+            let (triangles, _) = primitive.indices.as_chunks::<3>();
+            for triangle in triangles {
+                let Some(corners) = posed.corners(triangle) else { continue };
+                let Some((distance, at)) = ray_triangle(origin, direction, corners) else {
+                    continue;
+                };
+                if nearest.is_some_and(|hit| hit.distance <= distance) {
+                    continue;
                 }
+                let [a, b, c] = corners;
+                // Mirrored transforms wind the other way.
+                let flip = if posed.mirrored { -1.0 } else { 1.0 };
+                let away = flip * (b - a).cross(c - a).dot(direction) > 0.0;
+                if away && !both_sides {
+                    continue;
+                }
+                let n = posed.normal(triangle, at);
+                let normal = if away { -n } else { n };
+                let point = origin + direction * distance;
+                nearest = Some(Hit { distance, node, primitive: number, point, normal });
             }
-        }
+        });
         nearest
     }
 
@@ -73,6 +63,20 @@ impl Scene {
         pose: &Pose,
         visit: &mut dyn FnMut(usize, &str, [Vec3; 3]),
     ) {
+        self.visit_posed(pose, &mut |node, _, primitive, posed| {
+            let material = primitive.material.and_then(|m| self.materials.get(m));
+            let name = material.map_or("", |material| material.name.as_str());
+            let (triangles, _) = primitive.indices.as_chunks::<3>();
+            triangles
+                .iter()
+                .filter_map(|triangle| posed.corners(triangle))
+                .for_each(|corners| visit(node, name, corners));
+        });
+    }
+
+    /// Calls `visit` with the node, the number in its mesh, and the place in the world of every
+    /// primitive that is drawn at a pose.
+    fn visit_posed(&self, pose: &Pose, visit: &mut dyn FnMut(usize, usize, &Primitive, &Posed)) {
         for (index, node) in self.nodes.iter().enumerate() {
             let Some(mesh) = node.mesh.and_then(|mesh| self.meshes.get(mesh)) else { continue };
             if !pose.visible.get(index).copied().unwrap_or(false) {
@@ -81,15 +85,9 @@ impl Scene {
             let world_from_node = pose.world_from_node.get(index).copied().unwrap_or_default();
             let weights = pose.morph_weights.get(index).map_or(&[][..], Vec::as_slice);
             let joints = pose.world_from_rest(self, index).unwrap_or_default();
-            for primitive in &mesh.primitives {
-                let material = primitive.material.and_then(|m| self.materials.get(m));
-                let name = material.map_or("", |material| material.name.as_str());
+            for (number, primitive) in mesh.primitives.iter().enumerate() {
                 let posed = Posed::new(primitive, &world_from_node, &joints, weights);
-                let (triangles, _) = primitive.indices.as_chunks::<3>();
-                triangles
-                    .iter()
-                    .filter_map(|triangle| posed.corners(triangle))
-                    .for_each(|corners| visit(index, name, corners));
+                visit(index, number, primitive, &posed);
             }
         }
     }
