@@ -327,6 +327,10 @@ fn is_on_line(side: i32, at: vec2i) -> bool {
     return is_marked(first) && is_marked(second);
 }
 
+fn is_same(a: vec2u, b: vec2u) -> bool {
+    return ((a.x ^ b.x) & ID_OBJECT) == 0u && ((a.y ^ b.y) & 65535u) == 0u;
+}
+
 fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
@@ -389,6 +393,11 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     }
     types &= frame.detect.sources;
     let step = q - c;
+    let id_b = textureLoad(ids, clamped(c - step), 0).xy;
+    let id_a = textureLoad(ids, clamped(q + step), 0).xy;
+    if (is_same(id_b, id_q) || is_same(id_a, id_c)) {
+        types = 0u;
+    }
     let n_c = normal_of(c);
     let n_q = normal_of(q);
     let turn = frame.detect.crease_cos - dot(n_c, n_q);
