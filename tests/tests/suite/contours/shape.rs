@@ -122,13 +122,7 @@ const ANGLES: [i32; 17] =
 #[test]
 fn polylines_are_unions_of_capsules_at_every_angle() {
     assert_unions("wedge", wedge, &ANGLES);
-    assert_unions("zigzag", zigzag, &ANGLES[3..]);
-}
-
-#[test]
-#[ignore = "a border between two sides of a notch is lost where nothing is seen behind it"]
-fn polylines_reach_the_bottom_of_narrow_notches() {
-    assert_unions("zigzag", zigzag, &ANGLES[..3]);
+    assert_unions("zigzag", zigzag, &ANGLES);
 }
 
 #[test]

@@ -94,6 +94,8 @@ const SETS: u32 = 15u;
 
 const STRAIGHT_ON: f32 = 0.7;
 
+const UNKNOWN_MARGIN: f32 = -0.001;
+
 struct Best {
     end: u32,
     others: u32
@@ -331,6 +333,7 @@ fn mean_margin(end: u32) -> f32 {
     let reach = MARGIN_REACH * max(frame.line_scale, 0.5);
     var sum = 0.0;
     var weight = 1e-6;
+    var all = 1e-6;
     for (var side = 0u; side < 2u; side++) {
         var at = end;
         if (side == 1u) {
@@ -340,8 +343,11 @@ fn mean_margin(end: u32) -> f32 {
         for (var i = 0u; at != NOWHERE && i < MAX_HOPS; i++) {
             let long = min(length_of(at >> 1u), left);
             let margins = unpack2x16float(pieces[at >> 1u].widths);
-            sum += long * max(0.5 * (margins.x + margins.y), -1.0);
-            weight += long;
+            let margin = max(0.5 * (margins.x + margins.y), -1.0);
+            let known = select(0.0, long, abs(margin) > 2.0 * abs(UNKNOWN_MARGIN));
+            sum += known * margin;
+            weight += known;
+            all += long;
             left -= long;
             if (left <= 0.0) {
                 break;
@@ -349,7 +355,7 @@ fn mean_margin(end: u32) -> f32 {
             at = next_of_stroke(at ^ 1u);
         }
     }
-    return sum / weight;
+    return sum / weight * saturate(2.0 * weight / all);
 }
 
 fn mismatch(end: u32, other: u32) -> f32 {

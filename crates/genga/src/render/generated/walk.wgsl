@@ -91,6 +91,8 @@ const SET_HIDDEN: u32 = 1u;
 
 const SLACK: f32 = 0.3;
 
+const UNKNOWN_MARGIN: f32 = -0.001;
+
 struct Beyond {
     step: f32,
     away: f32
@@ -569,7 +571,7 @@ fn look_up(t: f32) -> Found {
                 strength = max(strength, margin);
             }
             else {
-                weakness = min(margin, -0.001);
+                weakness = max(min(margin, -0.001), select(-1.0, UNKNOWN_MARGIN, border != 0u));
             }
         }
         let beyond = textureLoad(ids, texel_of(p_px + found.away * line.outward), 0).xy;
