@@ -85,6 +85,8 @@ const BASE_COLOR: u32 = 1u;
 
 const BASE_PRODUCT: u32 = 2u;
 
+const BEAM_HUE: f32 = 0.6;
+
 const BLACK: f32 = 1.3;
 
 const BORDER: f32 = 0.03;
@@ -209,6 +211,8 @@ const OUTPUT_SHADOW: u32 = 5u;
 
 const OUTPUT_TONE: u32 = 4u;
 
+const OUTSHINES: f32 = 0.5;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
@@ -241,6 +245,12 @@ struct Axes {
     best: vec3f,
     second: vec3f,
     lead: f32
+}
+
+struct BeamShare {
+    without: vec3f,
+    color: vec3f,
+    outshone: f32
 }
 
 struct Detect {
@@ -459,7 +469,8 @@ struct Light {
     kind: u32,
     shadow_first: u32,
     shadow_maps: u32,
-    reserved_0: u32
+    reserved_0: u32,
+    color: vec4f
 }
 
 struct LightTerm {
@@ -677,6 +688,13 @@ struct Tone {
     reserved_0: f32
 }
 
+struct Tones {
+    lit: f32,
+    dark: f32,
+    part: f32,
+    width: f32
+}
+
 struct VertexInput {
     @location(0)
     p_in_world: vec3f,
@@ -719,6 +737,15 @@ fn area_for(h: f32, m: f32) -> f32 {
 
 fn axis_side(axis: vec3f) -> vec3f {
     return unit(cross(axis, select(vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0), abs(axis.y) > abs(axis.z))));
+}
+
+fn beam_lit(color: vec3f, beam: BeamShare) -> vec3f {
+    let hue = beam.color - min(beam.color.r, min(beam.color.g, beam.color.b));
+    return 1.0 - (1.0 - color * beam.color) * (1.0 - BEAM_HUE * hue);
+}
+
+fn beam_step(color: vec3f, beam: BeamShare) -> vec3f {
+    return mix(beam.without, color, beam.color);
 }
 
 fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split: vec2f, square: f32) -> f32 {
@@ -1157,7 +1184,8 @@ fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -
         return 1.0;
     }
     let map = map_of(light, receiver);
-    let footing = footing_of(map, receiver, to_light);
+    let to_source = normalize(select(to_light, to_lamp(light, receiver.p_in_world), lights[light].kind == LIGHT_BEAM));
+    let footing = footing_of(map, receiver, to_source);
     let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
     let short = select(footing.px, footing.py, is_wide);
@@ -1272,7 +1300,7 @@ fn map_of(light: u32, receiver: Receiver) -> u32 {
         }
         return first + cascade;
     }
-    let d = p_in_world - lights[light].position.xyz;
+    let d = -to_lamp(light, p_in_world);
     let a = abs(d);
     if (a.x >= a.y && a.x >= a.z) {
         return first + select(1u, 0u, d.x >= 0.0);
@@ -1377,6 +1405,13 @@ fn nearest_color(color: vec3f) -> vec3f {
         }
     }
     return frame.palette[best].color.rgb;
+}
+
+fn nearest_with_beams(color: vec3f, beam: BeamShare) -> vec3f {
+    if (BEAM_LIGHTS == 0u) {
+        return nearest_color(color);
+    }
+    return mix(nearest_color(beam_step(color, beam)), nearest_color(beam_lit(color, beam)), beam.outshone);
 }
 
 fn next_distance(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
@@ -1673,10 +1708,17 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let look_index = material.look;
     let look_flags = looks[look_index].flags;
     var sum = 0.0;
+    var beam_sum = 0.0;
+    var beam_color = vec3f(0.0);
     let first_term = light_term(lights[0], in.p_in_world, normal).term;
     var face_change = 0.0;
     for (var i = 0u; i < LIGHTS; i++) {
-        sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        let share = lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        sum += share;
+        if (i + BEAM_LIGHTS >= LIGHTS) {
+            beam_sum += share;
+            beam_color += share * lights[i].color.rgb;
+        }
     }
     var receiver: Receiver;
     if (SHADOWS) {
@@ -1695,6 +1737,14 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     }
     let sum_width = fwidth(sum);
     let picture_width = fwidth(picture);
+    var own_width = sum_width;
+    var outshone = 0.0;
+    var beam_free = 0.0;
+    if (BEAM_LIGHTS > 0u) {
+        own_width = fwidth(sum - beam_sum);
+        outshone = saturate((beam_sum - OUTSHINES) / max(fwidth(beam_sum), 0.0001) + 0.5);
+        beam_free = beam_sum;
+    }
     var rim = 0.0;
     var rim_width = 0.0;
     if (frame.line_method == METHOD_RIM) {
@@ -1720,6 +1770,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let t_free = ramp_coordinate(sum, gain, bias);
     var t = t_free;
     var t_width = free_width;
+    var own_lit = ramp_coordinate(sum - beam_sum, gain, bias);
+    var own_dark = own_lit;
+    var own_part = 1.0;
     var t_lit = t_free;
     var t_dark = t_free;
     var lit = 1.0;
@@ -1733,23 +1786,44 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
+            var beam_mixed = 0.0;
+            var beam_upper = 0.0;
+            var beam_lower = 0.0;
+            beam_color = vec3f(0.0);
             for (var i = 0u; i < LIGHTS; i++) {
                 let weight = lights[i].factors.x;
                 let light = light_term(lights[i], in.p_in_world, normal);
                 let term = light.term + select(0.0, face_change, i == 0u);
-                let matters = OUTPUT == OUTPUT_SHADOW || term > min(cap, 0.0);
+                let is_beam = i + BEAM_LIGHTS >= LIGHTS;
+                let matters = OUTPUT == OUTPUT_SHADOW || term > select(min(cap, 0.0), 0.0, is_beam);
                 let reached = light_reach(i, receiver, light.to_light, matters);
-                let capped = min(term, cap);
+                let capped = select(min(term, cap), 0.0, is_beam);
                 mixed += weight * mix(capped, term, reached);
                 upper += weight * select(capped, term, reached > 0.0);
                 lower += weight * select(term, capped, reached < 1.0);
-                reach += weight * reached;
+                if (is_beam) {
+                    beam_mixed += weight * mix(capped, term, reached);
+                    beam_upper += weight * select(capped, term, reached > 0.0);
+                    beam_lower += weight * select(term, capped, reached < 1.0);
+                    beam_color += weight * mix(capped, term, reached) * lights[i].color.rgb;
+                }
+                else {
+                    reach += weight * reached;
+                }
                 key_reach = select(key_reach, reached, i == 0u);
             }
             lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
             t_lit = ramp_coordinate(upper, gain, bias);
             t_dark = ramp_coordinate(lower, gain, bias);
             t = ramp_coordinate(mixed, gain, bias);
+            if (BEAM_LIGHTS > 0u) {
+                let own_upper = upper - beam_upper;
+                let own_lower = lower - beam_lower;
+                own_part = saturate((mixed - beam_mixed - own_lower) / max(own_upper - own_lower, 1e-6));
+                own_lit = ramp_coordinate(own_upper, gain, bias);
+                own_dark = ramp_coordinate(own_lower, gain, bias);
+                beam_sum = beam_mixed;
+            }
             t_width = select(max(free_width, t_lit - t_dark), free_width, lit <= 0.0 || lit >= 1.0);
         }
     }
@@ -1766,21 +1840,15 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var in_light = 1.0;
     var color = base;
     if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
-        if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
-            color = base * ramp_picture(looks[look_index].ramp_row, t_lit);
-            if (SHADOWS) {
-                let dark = base * ramp_picture(looks[look_index].ramp_row, t_dark);
-                color = mix(dark, color, lit);
-            }
+        var beam = BeamShare(vec3f(0.0), vec3f(1.0), 0.0);
+        if (BEAM_LIGHTS > 0u) {
+            let width = free_width + 0.5 * gain * (own_width - sum_width);
+            beam.without = toned(look_index, base, Tones(own_lit, own_dark, own_part, width), beam);
+            beam.color = beam_color / max(beam_sum, 1e-6);
+            beam.outshone = outshone * saturate(beam_sum / max(beam_free, 1e-6));
         }
-        else {
-            color = under_ramp(look_index, base, t_lit, free_width);
-            in_light = brightest;
-            if (SHADOWS) {
-                color = mix(under_ramp(look_index, base, t_dark, free_width), color, lit);
-                in_light = mix(brightest, in_light, lit);
-            }
-        }
+        color = toned(look_index, base, Tones(t_lit, t_dark, lit, free_width), beam);
+        in_light = brightest;
     }
     if (OUTPUT == OUTPUT_SHADOW) {
         color = vec3f(reach);
@@ -2053,6 +2121,11 @@ fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
     return normalize(frame.eye.xyz - p_in_world);
 }
 
+fn to_lamp(light: u32, p_in_world: vec3f) -> vec3f {
+    let along = select(0.0, 0.5, lights[light].kind == LIGHT_BEAM);
+    return lights[light].position.xyz + along * lights[light].direction.xyz - p_in_world;
+}
+
 fn tone_color(look: u32, index: u32) -> RampColor {
     let color = looks[look].tones[index].color;
     if (looks[look].tones[index].replace > 0.5) {
@@ -2067,6 +2140,25 @@ fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
     return select(weight, weight * weight * (3.0 - 2.0 * weight), softness > width);
 }
 
+fn toned(look: u32, base: vec3f, at: Tones, beam: BeamShare) -> vec3f {
+    if ((looks[look].flags & LOOK_RAMP_IMAGE) != 0u) {
+        brightest = 1.0;
+        var color = base * ramp_picture(looks[look].ramp_row, at.lit);
+        if (SHADOWS) {
+            let dark = base * ramp_picture(looks[look].ramp_row, at.dark);
+            color = mix(dark, color, at.part);
+        }
+        return with_beams(color, beam);
+    }
+    var color = under_ramp(look, base, at.lit, at.width, beam);
+    let in_light = brightest;
+    if (SHADOWS) {
+        color = mix(under_ramp(look, base, at.dark, at.width, beam), color, at.part);
+        brightest = mix(brightest, in_light, at.part);
+    }
+    return color;
+}
+
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
@@ -2075,26 +2167,26 @@ fn turned_by(way: vec2f, turn: vec2f) -> vec2f {
     return vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
 }
 
-fn under_ramp(look: u32, base: vec3f, t: f32, width: f32) -> vec3f {
+fn under_ramp(look: u32, base: vec3f, t: f32, width: f32, beam: BeamShare) -> vec3f {
     if (PALETTE) {
         if ((looks[look].flags & LOOK_SMOOTH_RAMP) == 0u) {
             let first = tone_color(look, 0u);
-            var color = nearest_color(base * first.factor + first.added);
+            var color = nearest_with_beams(base * first.factor + first.added, beam);
             for (var i = 1u; i < looks[look].tone_count; i++) {
                 let weight = tone_weight(look, i, t, width);
                 brightest = weight;
                 if (weight > 0.0) {
                     let tone = tone_color(look, i);
-                    color = mix(color, nearest_color(base * tone.factor + tone.added), weight);
+                    color = mix(color, nearest_with_beams(base * tone.factor + tone.added, beam), weight);
                 }
             }
             return color;
         }
         let ramp = ramp_color(look, t, width);
-        return nearest_color(base * ramp.factor + ramp.added);
+        return nearest_with_beams(base * ramp.factor + ramp.added, beam);
     }
     let ramp = ramp_color(look, t, width);
-    return base * ramp.factor + ramp.added;
+    return with_beams(base * ramp.factor + ramp.added, beam);
 }
 
 fn unit(v: vec3f) -> vec3f {
@@ -2118,6 +2210,13 @@ fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
 
 fn way_along(way: vec3f, at: Frames, rest: vec3f) -> Way {
     return Way(dot(way, rest), length(vec2f(dot(way, at.right), dot(way, at.up))), abs(dot(way, at.along)));
+}
+
+fn with_beams(color: vec3f, beam: BeamShare) -> vec3f {
+    if (BEAM_LIGHTS == 0u) {
+        return color;
+    }
+    return mix(beam_step(color, beam), beam_lit(color, beam), beam.outshone);
 }
 
 fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
@@ -2260,6 +2359,8 @@ fn paint_vertex(in: VertexInput) -> Surface {
 }
 
 override BASE: u32 = 0u;
+
+override BEAM_LIGHTS: u32 = 0u;
 
 override BLENDS_NORMALS: bool = false;
 

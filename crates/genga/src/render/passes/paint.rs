@@ -92,8 +92,9 @@ impl PaintPass {
             PaintOutput::All | PaintOutput::Highlights => features,
             _ => features.without_shine(),
         };
-        let lights =
-            (light_count(&prepared.lights) + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
+        let own = light_count(&prepared.lights);
+        let lights = (own + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
+        let beam_lights = lights - own as u32;
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -116,6 +117,7 @@ impl PaintPass {
                 features,
                 edited_shading,
                 lights,
+                beam_lights,
                 ..Variant::of(item, samples)
             }
         };

@@ -38,6 +38,8 @@ pub(crate) struct Variant {
     pub(crate) material: MaterialVariant,
     /// How many lights there are; only paint has a loop over so many.
     pub(crate) lights: u32,
+    /// How many of these, the last ones, are beams'.
+    pub(crate) beam_lights: u32,
 }
 
 /// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
@@ -112,6 +114,7 @@ impl Variant {
             edited_shading: false,
             material: item.look,
             lights: 0,
+            beam_lights: 0,
         }
     }
 }
@@ -211,6 +214,7 @@ impl SurfacePipelines {
             ("EDITED_SHADING", yes(variant.edited_shading)),
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),
             ("LIGHTS", f64::from(variant.lights)),
+            ("BEAM_LIGHTS", f64::from(variant.beam_lights)),
         ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
