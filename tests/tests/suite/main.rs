@@ -13,6 +13,7 @@ mod hatching_pictures;
 mod highlight_surfaces;
 mod highlights;
 mod lines;
+mod marks;
 mod motion;
 mod outlines;
 mod pipelines;

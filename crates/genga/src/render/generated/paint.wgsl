@@ -12,6 +12,9 @@ var<uniform> drawn: DrawNumber;
 @group(0) @binding(11)
 var stipple_points: texture_2d<u32>;
 
+@group(0) @binding(12)
+var proxy_normals: texture_2d_array<f32>;
+
 @group(0) @binding(2)
 var<storage, read> looks: array<Look>;
 
@@ -618,7 +621,11 @@ struct Shading {
     normals_x: vec4f,
     normals_y: vec4f,
     normals_z: vec4f,
-    face: vec4f
+    face: vec4f,
+    normal_map: i32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct ShadowMap {
@@ -1422,6 +1429,22 @@ fn next_distance(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye:
     return distance_on_ball(i, reflected, p_in_world, to_eye);
 }
 
+fn normal_in_direction(direction: vec3f, layer: i32) -> vec3f {
+    let sum = max(abs(direction.x) + abs(direction.y) + abs(direction.z), 1e-30);
+    var o = direction.xy / sum;
+    if (direction.z < 0.0) {
+        o = (1.0 - abs(o.yx)) * select(vec2f(-1.0), vec2f(1.0), o >= vec2f(0.0));
+    }
+    let side = i32(textureDimensions(proxy_normals).x);
+    let at = clamp((o * 0.5 + 0.5) * f32(side - 2) + 0.5, vec2f(0.0), vec2f(f32(side - 1)));
+    let corner = clamp(vec2i(floor(at)), vec2i(0), vec2i(max(side - 2, 0)));
+    let part = at - vec2f(corner);
+    let across = vec2i(1, 0);
+    let below = mix(textureLoad(proxy_normals, corner, layer, 0).xyz, textureLoad(proxy_normals, corner + across, layer, 0).xyz, part.x);
+    let above = mix(textureLoad(proxy_normals, corner + across.yx, layer, 0).xyz, textureLoad(proxy_normals, corner + vec2i(1), layer, 0).xyz, part.x);
+    return mix(below, above, part.y);
+}
+
 fn octahedral_unpack(bits: u32) -> vec3f {
     let p = unpack2x16snorm(bits);
     var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
@@ -1894,7 +1917,14 @@ fn shading_normal(shading: u32, p_in_world: vec3f, normal: vec3f) -> vec3f {
     let along = clamp(dot(from_center, axis), 0.0, shadings[shading].axis_length);
     let q = vec4f(from_center - axis * along, 1.0);
     let n = vec3f(dot(shadings[shading].normals_x, q), dot(shadings[shading].normals_y, q), dot(shadings[shading].normals_z, q));
-    let unit = n * inverseSqrt(max(dot(n, n), 1e-30));
+    var turned = n;
+    if (PROXY_MESHES) {
+        let layer = shadings[shading].normal_map;
+        let mapped = normal_in_direction(n, max(layer, 0));
+        let in_world = shadings[shading].normals_x.xyz * mapped.x + shadings[shading].normals_y.xyz * mapped.y + shadings[shading].normals_z.xyz * mapped.z;
+        turned = select(n, in_world, layer >= 0);
+    }
+    let unit = turned * inverseSqrt(max(dot(turned, turned), 1e-30));
     return mix(normal, unit, shadings[shading].amount);
 }
 
@@ -2417,6 +2447,8 @@ override ON_PANORAMA: bool = false;
 override OUTPUT: u32 = 0u;
 
 override PALETTE: bool = false;
+
+override PROXY_MESHES: bool = false;
 
 override REPLACES: bool = false;
 

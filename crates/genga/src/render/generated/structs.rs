@@ -1512,9 +1512,13 @@ pub(crate) struct Shading {
     pub(crate) normals_y: glam::Vec4,
     pub(crate) normals_z: glam::Vec4,
     pub(crate) face: glam::Vec4,
+    pub(crate) normal_map: i32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Shading > () == 96, "size of Shading does not match WGSL"
+    std::mem::size_of::< Shading > () == 112, "size of Shading does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Shading, center) == 0,
@@ -1547,6 +1551,22 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Shading, face) == 80,
     "offset of Shading.face does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normal_map) == 96,
+    "offset of Shading.normal_map does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_0) == 100,
+    "offset of Shading.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_1) == 104,
+    "offset of Shading.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_2) == 108,
+    "offset of Shading.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

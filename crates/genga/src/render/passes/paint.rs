@@ -109,6 +109,7 @@ impl PaintPass {
                 PaintOutput::Ink => 6,
             };
             let edited_shading = prepared.shadings.any();
+            let proxy_meshes = prepared.shadings.has_meshes();
             Variant {
                 highlights,
                 hatch,
@@ -116,6 +117,7 @@ impl PaintPass {
                 output,
                 features,
                 edited_shading,
+                proxy_meshes,
                 lights,
                 beam_lights,
                 ..Variant::of(item, samples)

@@ -35,6 +35,8 @@ pub(crate) struct Variant {
     pub(crate) features: Features,
     /// With other normals for shading.
     pub(crate) edited_shading: bool,
+    /// Some of them those of meshes.
+    pub(crate) proxy_meshes: bool,
     pub(crate) material: MaterialVariant,
     /// How many lights there are; only paint has a loop over so many.
     pub(crate) lights: u32,
@@ -112,6 +114,7 @@ impl Variant {
             hatch: None,
             features: Features::default(),
             edited_shading: false,
+            proxy_meshes: false,
             material: item.look,
             lights: 0,
             beam_lights: 0,
@@ -263,10 +266,10 @@ impl SurfacePipelines {
                 module: &self.module,
                 entry_point: Some(vertex_entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: if variant.edited_shading {
-                        &[("EDITED_SHADING", 1.0)]
-                    } else {
-                        &[]
+                    constants: match (variant.edited_shading, variant.proxy_meshes) {
+                        (true, true) => &[("EDITED_SHADING", 1.0), ("PROXY_MESHES", 1.0)],
+                        (true, false) => &[("EDITED_SHADING", 1.0)],
+                        _ => &[],
                     },
                     ..Default::default()
                 },

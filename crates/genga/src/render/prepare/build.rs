@@ -365,6 +365,7 @@ impl<'a> Builder<'a> {
                 (9, shadings.values.as_entire_binding()),
                 (10, dynamic_binding::<gpu::DrawNumber>(&numbers)),
                 (11, wgpu::BindingResource::TextureView(&stipple)),
+                (12, wgpu::BindingResource::TextureView(&shadings.normal_maps)),
             ],
         );
         let deform = self.deform_data(&geometry);
