@@ -15,8 +15,8 @@ pub(in crate::models) fn lock(
     thick: f64,
     point: f64,
 ) -> Part {
-    const ALONG: usize = 18;
-    const OVER: usize = 6;
+    const ALONG: usize = 32;
+    const OVER: usize = 10;
     const UNDER: usize = 2;
     let (mut over, mut under) = (Vec::new(), Vec::new());
     for i in 0..=ALONG {

@@ -53,6 +53,8 @@ const ROWS: i32 = 8;
 
 const SMALL_STEP: f32 = 8.0;
 
+const WEAK_CREASE: f32 = 0.1;
+
 struct Detect {
     depth: f32,
     laplacian: f32,
@@ -183,13 +185,14 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     let step_in_units = metres(abs(q.depth - c.depth), distance) / unit;
     let least = select(select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.laplacian, frame.detect.depth <= 0.0);
     let can_break = by_depth && step_in_units > least;
-    if (bits == 0u && !can_break) {
+    let can_meet = bits != 0u || turn > -WEAK_CREASE;
+    if (!can_meet && !can_break) {
         return 0u;
     }
     let step = q.at - c.at;
     let depth_b = textureLoad(depths, clamped(c.at - step, size), 0);
     let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
-    if (bits != 0u) {
+    if (can_meet) {
         let slack = select(0.0, seam_slack(frame, max(c.depth, q.depth), 1.0 / frame.gbuffer_scale), (bits & ~LINE_CREASE & 255u) != 0u);
         let found = meeting(depth_b, c.depth, q.depth, depth_a, slack);
         if (found.meets) {

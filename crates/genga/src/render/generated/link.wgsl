@@ -40,9 +40,17 @@ const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SCREEN_CURVATURE: u32 = 256u;
 
+const GAP_DEPTH: f32 = 4.0;
+
+const HEADING_REACH: f32 = 4.0;
+
 const LINK_END: u32 = 1073741823u;
 
 const LINK_JUNCTION: u32 = 2147483648u;
+
+const LONE: f32 = 4.0;
+
+const MARGIN_REACH: f32 = 16.0;
 
 const MAX_AT_PLACE: u32 = 64u;
 
@@ -52,7 +60,13 @@ const MOST_SEAM_STEPS: i32 = 18;
 
 const NOWHERE: u32 = 4294967295u;
 
+const ONE_PLACE: f32 = 1.0;
+
 const PIECE_CLOSED: u32 = 1024u;
+
+const PIECE_COVERED_A: u32 = 256u;
+
+const PIECE_COVERED_B: u32 = 512u;
 
 const PIECE_FINE: u32 = 16384u;
 
@@ -61,6 +75,10 @@ const PIECE_MEETS_A: u32 = 4096u;
 const PIECE_MEETS_B: u32 = 8192u;
 
 const PIECE_SEAM: u32 = 2048u;
+
+const PIECE_WEAK: u32 = 32768u;
+
+const SAME_STROKE: f32 = 0.5;
 
 const SEAM_GAP: f32 = 1.5;
 
@@ -73,6 +91,8 @@ const SEAM_SIDE: f32 = 2.0;
 const SEAM_STEP: f32 = 0.5;
 
 const SETS: u32 = 15u;
+
+const STRAIGHT_ON: f32 = 0.7;
 
 struct Best {
     end: u32,
@@ -171,19 +191,62 @@ struct Piece {
     own_step: f32
 }
 
+fn apart_in_depth(end: u32, other: u32) -> f32 {
+    let a = depth_of_end(end);
+    let b = depth_of_end(other);
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return abs(a - b) / frame.pixel_footprint;
+    }
+    return abs(a - b) / max(max(a, b), 1e-30) / frame.pixel_footprint;
+}
+
+fn best_beyond_gap(end: u32) -> u32 {
+    let p = end_place(end);
+    let ahead = heading(end);
+    let cell = cell_of(end);
+    var best = 0u;
+    var least = 1e30;
+    for (var i = 0; i < 9; i++) {
+        var next = atomicLoad(&buckets[bucket_of(cell + vec2i(i % 3 - 1, i / 3 - 1))]);
+        for (var k = 0u; next != 0u && k < MAX_AT_PLACE; k++) {
+            let other = next - 1u;
+            next = here[other].x;
+            let way = end_place(other) - p;
+            let gap = length(way);
+            if ((other >> 1u) == (end >> 1u) || gap > frame.max_gap || apart_in_depth(end, other) > GAP_DEPTH * (1.0 + gap)) {
+                continue;
+            }
+            let back = heading(other);
+            let unit = way / max(gap, 1e-6);
+            let turn = dot(ahead, back);
+            let is_ahead = gap < ONE_PLACE || min(dot(ahead, unit), -dot(back, unit)) > STRAIGHT_ON;
+            if (turn > -STRAIGHT_ON || !is_ahead) {
+                continue;
+            }
+            let cost = gap + frame.max_gap * (1.0 + turn);
+            let is_first = best != 0u && cost == least && pieces[other >> 1u].order < pieces[(best - 1u) >> 1u].order;
+            if (cost < least || is_first) {
+                least = cost;
+                best = other + 1u;
+            }
+        }
+    }
+    return best;
+}
+
 fn best_partner(end: u32) -> Best {
     let place = key(end);
     var best = 0u;
     var least = 1e30;
     var others = 0u;
-    var next = atomicLoad(&buckets[place.y % arrayLength(&buckets)]);
+    var next = atomicLoad(&buckets[place.y % (arrayLength(&buckets) / 2u)]);
     for (var i = 0u; next != 0u && i < MAX_AT_PLACE; i++) {
         let other = next - 1u;
         next = here[other].x;
         if ((other >> 1u) == (end >> 1u) || any(key(other) != place)) {
             continue;
         }
-        if ((pieces[other >> 1u].sets & SETS) != 0u) {
+        if (is_strong(other >> 1u)) {
             others += 1u;
         }
         let found = mismatch(end, other);
@@ -201,6 +264,19 @@ fn beyond(end: u32) -> u32 {
     return select(link - 1u, NOWHERE, link == 0u);
 }
 
+fn bucket_of(cell: vec2i) -> u32 {
+    let half = arrayLength(&buckets) / 2u;
+    return half + mixed(mixed(1013904242u, u32(cell.x)), u32(cell.y)) % half;
+}
+
+fn cell_of(end: u32) -> vec2i {
+    return vec2i(floor(end_place(end) / cell_size()));
+}
+
+fn cell_size() -> f32 {
+    return max(frame.max_gap, 1.0);
+}
+
 fn depth_at(p_px: vec2f) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let local = p_px - frame.tile_origin - 0.5;
@@ -209,6 +285,10 @@ fn depth_at(p_px: vec2f) -> f32 {
     let low = clamp(corner, vec2i(0), size - 1);
     let high = clamp(corner + 1, vec2i(0), size - 1);
     return mix(mix(textureLoad(depths, low, 0).x, textureLoad(depths, vec2i(high.x, low.y), 0).x, part.x), mix(textureLoad(depths, vec2i(low.x, high.y), 0).x, textureLoad(depths, high, 0).x, part.x), part.y);
+}
+
+fn depth_of_end(end: u32) -> f32 {
+    return select(pieces[end >> 1u].depth_b, pieces[end >> 1u].depth_a, (end & 1u) == 0u);
 }
 
 fn direction(end: u32) -> vec2f {
@@ -227,6 +307,14 @@ fn end_width(end: u32) -> f32 {
     return unpack2x16float(pieces[end >> 1u].widths)[end & 1u];
 }
 
+fn heading(end: u32) -> vec2f {
+    return bitcast<vec2f>(there[end]);
+}
+
+fn is_strong(piece: u32) -> bool {
+    return (pieces[piece].sets & SETS) != 0u && (pieces[piece].sets & PIECE_WEAK) == 0u;
+}
+
 fn key(end: u32) -> vec2u {
     let piece = end >> 1u;
     if ((end & 1u) == 0u) {
@@ -239,9 +327,50 @@ fn length_of(piece: u32) -> f32 {
     return distance(pieces[piece].a, pieces[piece].b);
 }
 
+fn mean_margin(end: u32) -> f32 {
+    let reach = MARGIN_REACH * max(frame.line_scale, 0.5);
+    var sum = 0.0;
+    var weight = 1e-6;
+    for (var side = 0u; side < 2u; side++) {
+        var at = end;
+        if (side == 1u) {
+            at = next_of_stroke(end);
+        }
+        var left = reach;
+        for (var i = 0u; at != NOWHERE && i < MAX_HOPS; i++) {
+            let long = min(length_of(at >> 1u), left);
+            let margins = unpack2x16float(pieces[at >> 1u].widths);
+            sum += long * max(0.5 * (margins.x + margins.y), -1.0);
+            weight += long;
+            left -= long;
+            if (left <= 0.0) {
+                break;
+            }
+            at = next_of_stroke(at ^ 1u);
+        }
+    }
+    return sum / weight;
+}
+
 fn mismatch(end: u32, other: u32) -> f32 {
-    let differs = ((pieces[end >> 1u].sets ^ pieces[other >> 1u].sets) & SETS) != 0u;
+    let differs = ((pieces[end >> 1u].sets ^ pieces[other >> 1u].sets) & (SETS | PIECE_WEAK)) != 0u;
     return dot(direction(end), direction(other)) + select(0.0, 4.0, differs);
+}
+
+fn mixed(a: u32, b: u32) -> u32 {
+    var h = (a ^ (a >> 16u)) * 2146121005u + b;
+    h = (h ^ (h >> 15u)) * 2221713035u;
+    return h ^ (h >> 16u);
+}
+
+fn next_of_stroke(end: u32) -> u32 {
+    let other = beyond(end);
+    if (other == NOWHERE) {
+        return NOWHERE;
+    }
+    let is_line = (pieces[other >> 1u].sets & SETS) != 0u;
+    let goes_on = dot(direction(end), direction(other)) < -SAME_STROKE;
+    return select(NOWHERE, other, is_line && goes_on);
 }
 
 fn onward(end: u32) -> u32 {
@@ -274,6 +403,23 @@ fn place_from(entered: u32, reach: f32) -> vec2f {
         at = next;
     }
     return end_place(at ^ 1u);
+}
+
+fn runs_out(end: u32) -> bool {
+    let piece = end >> 1u;
+    let own_bits = select(PIECE_MEETS_B | PIECE_COVERED_B, PIECE_MEETS_A | PIECE_COVERED_A, (end & 1u) == 0u);
+    if ((states[piece].x & SETS) == 0u || (pieces[piece].sets & own_bits) != 0u) {
+        return false;
+    }
+    if ((links[end] & LINK_JUNCTION) != 0u) {
+        return false;
+    }
+    let other = beyond(end);
+    if (other == NOWHERE) {
+        return true;
+    }
+    let cut_bit = select(PIECE_COVERED_B, PIECE_COVERED_A, (other & 1u) == 0u);
+    return (states[other >> 1u].x & SETS) == 0u && (pieces[other >> 1u].sets & cut_bit) == 0u;
 }
 
 fn screen_curvature(end: u32) -> f32 {
@@ -370,6 +516,28 @@ fn begin_rank(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
 }
 
 @compute @workgroup_size(64)
+fn bridge(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let end = id.x + id.y * groups.x * 64u;
+    if (end >= 2u * piece_count() || here[end].y == 0u) {
+        return;
+    }
+    let chosen = best_beyond_gap(end);
+    if (chosen == 0u || best_beyond_gap(chosen - 1u) != end + 1u) {
+        return;
+    }
+    links[end] = chosen;
+    let middle = 0.5 * (end_place(end) + end_place(chosen - 1u));
+    if ((end & 1u) == 0u) {
+        places[end >> 1u].x = middle.x;
+        places[end >> 1u].y = middle.y;
+    }
+    else {
+        places[end >> 1u].z = middle.x;
+        places[end >> 1u].w = middle.y;
+    }
+}
+
+@compute @workgroup_size(64)
 fn close(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let piece = id.x + id.y * groups.x * 64u;
     if (piece >= piece_count()) {
@@ -378,13 +546,23 @@ fn close(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     let sets = pieces[piece].sets;
     var state = vec4u(sets, pieces[piece].widths, 0u, 0u);
     let own = length_of(piece);
-    if ((sets & SETS) == 0u && own <= frame.max_gap) {
+    if ((sets & SETS) != 0u) {
+        let means = vec2f(mean_margin(2u * piece), mean_margin(2u * piece + 1u));
+        if ((sets & (PIECE_WEAK | PIECE_SEAM)) != 0u) {
+            state.x = select(0u, sets, any(means > vec2f(0.0)));
+            state.y = pack2x16float(max(means, vec2f(0.0)));
+        }
+        else {
+            state.y = pack2x16float(unpack2x16float(pieces[piece].widths) * saturate(1.0 + LONE * means));
+        }
+    }
+    if (!is_strong(piece) && own <= frame.max_gap) {
         var gap = own;
         var found = array<u32, 2>(NOWHERE, NOWHERE);
         for (var side = 0u; side < 2u; side++) {
             var end = beyond(2u * piece + side);
             for (var i = 0u; end != NOWHERE && i < MAX_HOPS; i++) {
-                if ((pieces[end >> 1u].sets & SETS) != 0u) {
+                if (is_strong(end >> 1u)) {
                     found[side] = end;
                     break;
                 }
@@ -419,9 +597,25 @@ fn gather(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) gro
     let place = key(end);
     var next = 0u;
     if (place.x != 0u) {
-        next = atomicExchange(&buckets[place.y % arrayLength(&buckets)], end + 1u);
+        next = atomicExchange(&buckets[place.y % (arrayLength(&buckets) / 2u)], end + 1u);
     }
     here[end] = vec2u(next, 0u);
+}
+
+@compute @workgroup_size(64)
+fn gather_ends(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
+    let end = id.x + id.y * groups.x * 64u;
+    if (end >= 2u * piece_count()) {
+        return;
+    }
+    var next = 0u;
+    let listed = runs_out(end);
+    if (listed) {
+        next = atomicExchange(&buckets[bucket_of(cell_of(end))], end + 1u);
+    }
+    here[end] = vec2u(next, u32(listed));
+    let way = end_place(end) - place_from(end, HEADING_REACH);
+    there[end] = bitcast<vec2u>(way * inverseSqrt(max(dot(way, way), 1e-12)));
 }
 
 @compute @workgroup_size(64)
@@ -441,7 +635,7 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
     if (chosen.end != 0u && best_partner(chosen.end - 1u).end == end + 1u) {
         link = chosen.end;
     }
-    let joined_is_drawn = link != 0u && (pieces[(link - 1u) >> 1u].sets & SETS) != 0u;
+    let joined_is_drawn = link != 0u && is_strong((link - 1u) >> 1u);
     if (chosen.others > select(0u, 1u, joined_is_drawn)) {
         link |= LINK_JUNCTION;
     }

@@ -66,11 +66,15 @@ const PIECE_MEETS_B: u32 = 8192u;
 
 const PIECE_SEAM: u32 = 2048u;
 
+const PIECE_WEAK: u32 = 32768u;
+
 const SAME_FACE: f32 = 0.97;
 
 const SET_HIDDEN: u32 = 1u;
 
 const SMALL_STEP: f32 = 8.0;
+
+const WEAK_CREASE: f32 = 0.1;
 
 struct Course {
     a: vec2f,
@@ -249,10 +253,6 @@ fn clamped(at: vec2i) -> vec2i {
     return clamp(at, vec2i(0), vec2i(textureDimensions(ids)) - 1);
 }
 
-fn crease_strength(turn: f32) -> f32 {
-    return saturate(turn / CREASE_GROWTH);
-}
-
 fn depth_of(at: vec2i) -> f32 {
     return textureLoad(own_depths, clamped(at), 0).x;
 }
@@ -327,6 +327,10 @@ fn is_on_line(side: i32, at: vec2i) -> bool {
     return is_marked(first) && is_marked(second);
 }
 
+fn is_same(a: vec2u, b: vec2u) -> bool {
+    return ((a.x ^ b.x) & ID_OBJECT) == 0u && ((a.y ^ b.y) & 65535u) == 0u;
+}
+
 fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
@@ -389,10 +393,15 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     }
     types &= frame.detect.sources;
     let step = q - c;
+    let id_b = textureLoad(ids, clamped(c - step), 0).xy;
+    let id_a = textureLoad(ids, clamped(q + step), 0).xy;
+    if (is_same(id_b, id_q) || is_same(id_a, id_c)) {
+        types = 0u;
+    }
     let n_c = normal_of(c);
     let n_q = normal_of(q);
     let turn = frame.detect.crease_cos - dot(n_c, n_q);
-    if (turn > 0.0 && dot(n_c, normal_of(c - step)) > SAME_FACE && dot(n_q, normal_of(q + step)) > SAME_FACE) {
+    if (turn > -WEAK_CREASE && dot(n_c, normal_of(c - step)) > SAME_FACE && dot(n_q, normal_of(q + step)) > SAME_FACE) {
         types |= LINE_CREASE;
     }
     if (types == 0u) {
@@ -402,7 +411,7 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     if ((frame.flags & FRAME_SMALL_DETECTION) != 0u) {
         let fine = fine_meeting(c, step, differs);
         if (fine.is_found) {
-            return Side(select(0u, types, fine.meets), fine.p_px, picture_depth(fine.depth), crease_strength(turn), true);
+            return Side(select(0u, types, fine.meets), fine.p_px, picture_depth(fine.depth), clamp(turn / CREASE_GROWTH, -1.0, 1.0), true);
         }
         if (!differs) {
             return nothing;
@@ -415,7 +424,7 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     }
     let texel = vec2f(c) + 0.5 + found.at * vec2f(step);
     let p_px = texel / frame.gbuffer_scale + frame.tile_origin;
-    return Side(types, p_px, picture_depth(found.depth), crease_strength(turn), false);
+    return Side(types, p_px, picture_depth(found.depth), clamp(turn / CREASE_GROWTH, -1.0, 1.0), false);
 }
 
 fn side_key(at: vec2i, vertical: u32) -> vec2u {
@@ -452,7 +461,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     var keys = array<vec2u, 4>(side_key(at, 0u), side_key(below, 0u), side_key(at, 1u), side_key(right, 1u));
     var count = 0u;
     var types = 0u;
-    var crease = 0.0;
+    var crease = -1.0;
     var kind = PIECE_SEAM | PIECE_FINE;
     var middle = vec2f(0.0);
     var depth = 0.0;
@@ -472,7 +481,7 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     middle /= f32(count);
     depth /= f32(count);
     var owner = 0u;
-    var width = 0.0;
+    var widths = vec2f(1e30, 0.0);
     for (var i = 0; i < 4; i++) {
         let texel = at + vec2i(i & 1, i >> 1);
         let found = textureLoad(ids, texel, 0).x;
@@ -480,7 +489,8 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             owner = found;
         }
         owner |= found & (15u << ID_SETS_SHIFT);
-        width = max(width, textureLoad(normals, texel, 0).a);
+        let width = textureLoad(normals, texel, 0).a;
+        widths = vec2f(min(widths.x, width), max(widths.y, width));
     }
     var sets = 0u;
     for (var i = 0u; i < 4u; i++) {
@@ -490,10 +500,13 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
     }
     sets &= (owner >> ID_SETS_SHIFT) & 15u;
-    width *= select(crease, 1.0, (types & ~LINE_CREASE) != 0u);
-    if (sets == 0u || width <= 0.0) {
+    let is_within = (types & LINE_OBJECT) == 0u;
+    let is_crease = (types & ~LINE_CREASE) == 0u;
+    let width = select(widths.y, widths.x, is_within) * select(1.0, crease, is_crease);
+    if (sets == 0u || width == 0.0) {
         return;
     }
+    kind |= select(0u, PIECE_WEAK, width < 0.0);
     line = Course();
     line.owner = owner;
     line.widths = vec2f(1.0);

@@ -52,6 +52,8 @@ const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SMALL_DETECTION: u32 = 512u;
 
+const HANDED_OVER: f32 = 8.0;
+
 const ID_OBJECT: u32 = 16777215u;
 
 const ID_THROUGH_SHIFT: u32 = 28u;
@@ -116,7 +118,8 @@ struct Ending {
     distance: f32,
     is_free: bool,
     is_joined: bool,
-    is_closed: bool
+    is_closed: bool,
+    onward: u32
 }
 
 struct Frame {
@@ -308,7 +311,7 @@ fn ending(end: u32) -> Ending {
     let rank = ranks[end];
     let last = rank.x;
     if (ranks[last].y != 0u) {
-        return Ending(0.0, false, false, true);
+        return Ending(0.0, false, false, true, 0u);
     }
     let link = links[last];
     let meets_bit = select(PIECE_MEETS_B, PIECE_MEETS_A, (last & 1u) == 0u);
@@ -319,8 +322,12 @@ fn ending(end: u32) -> Ending {
         let cut_bit = select(PIECE_COVERED_B, PIECE_COVERED_A, (other & 1u) == 0u);
         is_cut = (pieces[other >> 1u].sets & cut_bit) != 0u;
     }
-    let is_free = !is_joined && !is_cut && !goes_on(last);
-    return Ending(bitcast<f32>(rank.y), is_free, is_joined, false);
+    var onward = link & LINK_END;
+    if (onward != 0u && (states[(onward - 1u) >> 1u].x & SETS) == 0u) {
+        onward = 0u;
+    }
+    let is_free = !is_joined && !is_cut && onward == 0u && !goes_on(last);
+    return Ending(bitcast<f32>(rank.y), is_free, is_joined, false, onward);
 }
 
 fn goes_on(end: u32) -> bool {
@@ -337,6 +344,22 @@ fn goes_on(end: u32) -> bool {
     }
     let index = u32(texel.y * size.x + texel.x);
     return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
+}
+
+fn handed_over(radius: f32, away: f32, onward: u32) -> f32 {
+    if (onward == 0u) {
+        return radius;
+    }
+    let state = states[(onward - 1u) >> 1u];
+    let width = unpack2x16float(state.y)[(onward - 1u) & 1u];
+    var other = 0.0;
+    for (var i = 0u; i < 4u; i++) {
+        if (((state.x >> i) & 1u) != 0u) {
+            other = max(other, width * frame.line_sets[i].radius);
+        }
+    }
+    let share = smoothstep(0.0, HANDED_OVER * max(radius - other, 0.0) + 0.001, away);
+    return min(radius, mix(other, radius, share));
 }
 
 fn hashed(cell: vec3i, seed: u32) -> vec2f {
@@ -514,6 +537,8 @@ fn radius_at(line_set: u32, piece: u32, at_b: bool, from_start: f32, to_end: f32
     if (nearest < 1e29) {
         radius *= curve_at(line_set, CURVE_TAPER, nearest / frame.line_scale);
     }
+    radius = handed_over(radius, from_start, start.onward);
+    radius = handed_over(radius, to_end, end.onward);
     return min(radius, MAX_RADIUS);
 }
 

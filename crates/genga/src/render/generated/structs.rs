@@ -1193,6 +1193,7 @@ pub(crate) const PIECE_FINE: u32 = 16384u32;
 pub(crate) const PIECE_MEETS_A: u32 = 4096u32;
 pub(crate) const PIECE_MEETS_B: u32 = 8192u32;
 pub(crate) const PIECE_SEAM: u32 = 2048u32;
+pub(crate) const PIECE_WEAK: u32 = 32768u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct PaletteColor {

@@ -73,6 +73,8 @@ const LINE_SILHOUETTE: u32 = 1u;
 
 const MAX_LIGHTS: u32 = 16u;
 
+const NO_WIDTH: f32 = -1e30;
+
 const OF_STEP: f32 = 0.25;
 
 const OTHER_IN_FRONT: f32 = 2.0;
@@ -82,6 +84,8 @@ const PIECE_COVERED_A: u32 = 256u;
 const PIECE_COVERED_B: u32 = 512u;
 
 const PIECE_LOOKUPS: u32 = 8u;
+
+const PIECE_WEAK: u32 = 32768u;
 
 const SET_HIDDEN: u32 = 1u;
 
@@ -549,6 +553,7 @@ fn look_up(t: f32) -> Found {
         strength = max(strength, line.crease);
     }
     var through = 0u;
+    var weakness = 0.0;
     if (covered > 0.0) {
         types |= border | (line.types & LINE_SILHOUETTE);
         strength = 1.0;
@@ -558,9 +563,15 @@ fn look_up(t: f32) -> Found {
         let found = look_beyond(p_px, line_depth);
         let step = found.step / max(frame.line_scale, 1.0);
         let threshold = select(frame.detect.laplacian, select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.depth > 0.0);
-        if (threshold > 0.0 && step > OF_STEP * threshold) {
-            types |= LINE_SILHOUETTE;
-            strength = max(strength, min(step / (OF_STEP * threshold) - 1.0, 1.0));
+        if (threshold > 0.0) {
+            let margin = clamp(step / (OF_STEP * threshold) - 1.0, -1.0, 1.0);
+            if (margin > 0.0) {
+                types |= LINE_SILHOUETTE;
+                strength = max(strength, margin);
+            }
+            else {
+                weakness = min(margin, -0.001);
+            }
         }
         let beyond = textureLoad(ids, texel_of(p_px + found.away * line.outward), 0).xy;
         var identities = 0u;
@@ -582,17 +593,24 @@ fn look_up(t: f32) -> Found {
     }
     let own_sets = line.owner >> ID_SETS_SHIFT;
     var sets = 0u;
+    var weak_sets = 0u;
     for (var i = 0u; i < 4u; i++) {
         let is_hidden_set = (frame.line_sets[i].flags & SET_HIDDEN) != 0u;
         let is_covered = covered > 0.0 && ((through >> i) & 1u) == 0u;
         if ((frame.line_sets[i].types & types) != 0u && is_hidden_set == is_covered) {
             sets |= 1u << i;
         }
+        if ((frame.line_sets[i].types & LINE_SILHOUETTE) != 0u && !is_hidden_set) {
+            weak_sets |= 1u << i;
+        }
     }
     let is_line = sets != 0u;
     sets &= own_sets & 15u;
     if (sets == 0u) {
-        return Found(0u, 0.0, covered, is_line);
+        weak_sets &= own_sets & 15u;
+        let weak = weakness * look_width(p_px, false);
+        let is_weak = !is_line && weak_sets != 0u && weak < 0.0;
+        return Found(select(0u, weak_sets | PIECE_WEAK, is_weak), select(0.0, weak, is_weak), covered, is_line);
     }
     let width = strength * look_width(p_px, covered > 0.0);
     return Found(select(0u, sets, width > 0.0), width, covered, is_line);
@@ -743,7 +761,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     var started_covered = 0.0;
     var width_sum = 0.0;
     var width_count = 0.0;
-    var last_width = -1.0;
+    var last_width = NO_WIDTH;
     var halvings = 0u;
     var low = 0.0;
     var high = 0.0;
@@ -792,8 +810,8 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
         if (cut >= 0.0) {
             let mean = width_sum / max(width_count, 1.0);
-            let width = select(max(last_width, 0.0), mean, width_count > 0.0);
-            let width_0 = select(last_width, width, last_width < 0.0);
+            let width = select(select(last_width, 0.0, last_width == NO_WIDTH), mean, width_count > 0.0);
+            let width_0 = select(last_width, width, last_width == NO_WIDTH);
             if (cut > start) {
                 var flags = 0u;
                 if (started_covered > CLEARLY_COVERED) {
@@ -810,8 +828,9 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
             start = cut;
             started_covered = next_state.covered;
             let changes = next_state.sets != state.sets;
-            let ends = changes && (state.sets == 0u || next_state.sets == 0u);
-            last_width = select(width, -1.0, ends);
+            let weakens = ((state.sets ^ next_state.sets) & PIECE_WEAK) != 0u;
+            let ends = changes && (state.sets == 0u || next_state.sets == 0u || weakens);
+            last_width = select(width, NO_WIDTH, ends);
             width_sum = 0.0;
             width_count = 0.0;
         }
@@ -820,7 +839,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
         if (halvings == 0u) {
             state = next_state;
-            if (state.width > 0.0) {
+            if (state.width != 0.0) {
                 width_sum += state.width;
                 width_count += 1.0;
             }

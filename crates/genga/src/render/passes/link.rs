@@ -19,6 +19,8 @@ pub(crate) struct LinkPass {
     gather: wgpu::ComputePipeline,
     join: wgpu::ComputePipeline,
     close: wgpu::ComputePipeline,
+    gather_ends: wgpu::ComputePipeline,
+    bridge: wgpu::ComputePipeline,
     begin_rank: wgpu::ComputePipeline,
     jump: wgpu::ComputePipeline,
 }
@@ -45,6 +47,8 @@ impl LinkPass {
             gather: make("gather"),
             join: make("join"),
             close: make("close"),
+            gather_ends: make("gather_ends"),
+            bridge: make("bridge"),
             begin_rank: make("begin_rank"),
             jump: make("jump"),
             layout,
@@ -92,6 +96,8 @@ impl LinkPass {
             (&self.gather, OVER_ENDS),
             (&self.join, OVER_ENDS),
             (&self.close, OVER_PIECES),
+            (&self.gather_ends, OVER_ENDS),
+            (&self.bridge, OVER_ENDS),
             (&self.begin_rank, OVER_ENDS),
         ];
         for (pipeline, work) in steps {

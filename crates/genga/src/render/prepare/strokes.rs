@@ -136,7 +136,7 @@ impl StrokeData {
             pieces: stored("pieces", capacity * size_of::<Piece>(), none),
             counters: stored("line counters", 16, none),
             indirect: stored("line arguments", 80, Usage::INDIRECT),
-            buckets: stored("places of ends", 8 * capacity, none),
+            buckets: stored("places of ends", 16 * capacity, none),
             links: stored("links", 8 * capacity, none),
             ranks: [stored("ranks", 16 * capacity, none), stored("ranks", 16 * capacity, none)],
             states: stored("states of pieces", 16 * capacity, none),
