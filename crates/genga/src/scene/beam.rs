@@ -159,7 +159,8 @@ pub struct BeamLight {
     /// As displayed (sRGB-encoded), 0 to 1; `None` for the mean of the ramp's tones, weighted by their
     /// alpha and made as bright as it can be.
     pub color: Option<Vec3>,
-    /// Whether surfaces cast its shadows, as from a lamp in its middle, if the style has shadows.
+    /// Whether surfaces cast its shadows, as from a lamp in its middle, if the style has shadows: what
+    /// that is inside of hides all of its light.
     pub casts_shadow: bool,
 }
 

@@ -104,7 +104,7 @@ struct Light {
     range: f32,
     /// Its colour; the mean of the ramp's by default.
     color: Option<Color>,
-    /// Whether surfaces cast its shadows, as from a lamp in the beam's middle.
+    /// Whether surfaces cast its shadows, as from a lamp in the beam's middle, which must be free.
     #[serde(default)]
     casts_shadow: bool,
 }

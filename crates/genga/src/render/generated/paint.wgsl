@@ -850,7 +850,7 @@ fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32
     let across = vec2f(-way.y, way.x);
     let slope = length(vec2f(dot(across, dx), dot(across, dy)));
     let along = Way(dot(way, p), length(vec2f(dot(way, dx), dot(way, dy))), 1.0);
-    return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec2f(share, 0.0), salt);
+    return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec3f(1.0, 0.0, share), salt);
 }
 
 fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
@@ -1507,7 +1507,7 @@ fn placed_axis(sorted: vec3f, rank: vec3u, x: vec3f) -> vec3f {
     return signed_axis(select(-sizes, sizes, x >= vec3f(0.0)));
 }
 
-fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, salt: u32) -> f32 {
+fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec3f, salt: u32) -> f32 {
     let slope = length(vec2f(dot(axis, at.right), dot(axis, at.up)));
     let u = axis_side(axis);
     let ways = array(way_along(u, at, rest), way_along(cross(axis, u), at, rest));
@@ -2045,7 +2045,7 @@ fn stroke_ink(look: u32, pen: Pen, lum: f32, point: HatchPoint) -> f32 {
     return ink;
 }
 
-fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f, salt: u32) -> f32 {
+fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec3f, salt: u32) -> f32 {
     let lines = octave(across, slope * pen.spacing);
     let seed = pen.seed ^ salt;
     let even = hand(pen, lines.even * lines.period, ways, seed);
@@ -2060,7 +2060,10 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let black = saturate(2.5 * (1.3 - wanted));
     let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(wanted, 0.0)));
     let darkness = vec2f(wanted) + loose * (heavier - 1.8 * light * light * gap);
-    let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
+    var tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
+    if (HATCH_HAS_CROSS) {
+        tone = 1.0 - shared_rest(tone, vec2f(share.z));
+    }
     var part = 1.0 - shared_rest(tone, carried);
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
     let grown = 0.5 * lines.size;
@@ -2133,13 +2136,13 @@ fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> 
     let axes = nearest_axes(at.across);
     let lead = 0.5 * axes.lead / BORDER;
     let jitter = 0.25 * pen.irregularity;
-    let parts = share * vec2f(0.5 + lead, 0.5 - lead);
-    let count = select(1u, 2u, parts.y > -share * jitter);
+    let parts = vec2f(0.5 + lead, 0.5 - lead);
+    let count = select(1u, 2u, parts.y > -jitter);
     var open = 1.0;
     for (var i = 0u; i < select(0u, count, share > 0.0); i++) {
         let axis = select(axes.best, axes.second, i == 1u);
         let part = select(parts.x, parts.y, i == 1u);
-        open *= 1.0 - plane_strokes(pen, at, rest, axis, vec2f(part, share * jitter), salt);
+        open *= 1.0 - plane_strokes(pen, at, rest, axis, vec3f(part, jitter, share), salt);
     }
     return 1.0 - open;
 }
