@@ -76,7 +76,7 @@ fn its_colour_is_that_of_f64() {
             let [part, least] = [color[c], color.min_element()].map(f64::from);
             let mut expected = tone * part;
             if is_outshone {
-                expected = 1.0 - (1.0 - expected) * (1.0 - 0.6 * (part - least));
+                expected = 1.0 - (1.0 - 0.5 * tone * (1.0 + part)) * (1.0 - 0.6 * (part - least));
             }
             let error = (255.0 * expected - f64::from(found[c])).abs();
             assert!(error <= 1.5, "({x}, {y}): {found:?}, channel {c} should be {expected}");
