@@ -332,6 +332,8 @@ impl Renderer {
                         TextureRead::record(device, &mut encoder, coverage, all, offset, kept.size)
                     }
                     LayerKind::LineType => {
+                        let off = &mut Timer::off();
+                        self.detect.mask(device, &mut encoder, prepared, &targets, off);
                         read_whole(device, &mut encoder, &targets.mask.texture, all)
                     }
                     LayerKind::Energy => {

@@ -50,7 +50,7 @@ pub struct Renderer {
     layouts: Layouts,
     deform: DeformPass,
     gbuffer: GBufferPass,
-    detect: DetectPass,
+    pub(crate) detect: DetectPass,
     depth: DepthPass,
     candidates: CandidatePass,
     walk: WalkPass,
@@ -297,7 +297,13 @@ impl Renderer {
         let aim = Aim { eye: projected.eye, tile, viewport: viewport(device, view, tile) };
 
         self.gbuffer.run(device, encoder, prepared, &targets, &aim, timer);
-        self.detect.run(device, encoder, prepared, &targets, timer);
+        match prepared.style.lines.method {
+            LineMethod::Contour => self.detect.seams(device, encoder, prepared, &targets, timer),
+            LineMethod::Reference | LineMethod::Image => {
+                self.detect.mask(device, encoder, prepared, &targets, timer);
+            }
+            LineMethod::None | LineMethod::Hull | LineMethod::Rim => {}
+        }
         self.paint.run(device, encoder, prepared, &targets, (&aim, PaintOutput::All), timer);
         if let Some(depth) = &targets.picture_depth {
             self.depth.run(device, encoder, &prepared.frame, &targets, depth, timer);

@@ -43,15 +43,9 @@ const MASK_CREASE_SHIFT: u32 = 16u;
 
 const MASK_SILHOUETTE_SHIFT: u32 = 8u;
 
-const MEETING: u32 = 128u;
-
-const METHOD_CONTOUR: u32 = 1u;
-
 const MIN_FACING: f32 = 0.1;
 
 const ROWS: i32 = 8;
-
-const SMALL_STEP: f32 = 8.0;
 
 const WEAK_CREASE: f32 = 0.1;
 
@@ -115,15 +109,14 @@ struct LineSet {
     reserved: u32
 }
 
-struct Meeting {
-    meets: bool,
-    at: f32,
-    depth: f32
-}
-
 struct PaletteColor {
     color: vec4f,
     lab: vec4f
+}
+
+struct Side {
+    id: vec2u,
+    normal: vec4f
 }
 
 struct Texel {
@@ -140,6 +133,13 @@ fn breaks(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, plane: vec2f) 
     let second = min(abs(depth_q - depth_c - (depth_c - depth_b)), abs(depth_c - depth_q - (depth_q - depth_a)));
     let from_plane = min(abs(depth_q - depth_c - plane.x), abs(depth_c - depth_q + plane.y));
     return vec2f(metres(second, distance), metres(from_plane, distance)) / unit;
+}
+
+fn can_meet(c: Side, q: Side) -> bool {
+    let are_surfaces = c.id.x != 0u && q.id.x != 0u && max(c.normal.a, q.normal.a) > 0.0;
+    let differ = ((c.id.x ^ q.id.x) & ID_OBJECT) != 0u || c.id.y != q.id.y;
+    let turned = dot(c.normal.xyz, q.normal.xyz) < frame.detect.crease_cos + WEAK_CREASE;
+    return are_surfaces && (differ || turned);
 }
 
 fn clamped(at: vec2i, size: vec2i) -> vec2i {
@@ -185,36 +185,26 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     let step_in_units = metres(abs(q.depth - c.depth), distance) / unit;
     let least = select(select(min(frame.detect.laplacian, frame.detect.depth), frame.detect.depth, frame.detect.laplacian <= 0.0), frame.detect.laplacian, frame.detect.depth <= 0.0);
     let can_break = by_depth && step_in_units > least;
-    let can_meet = bits != 0u || turn > -WEAK_CREASE;
-    if (!can_meet && !can_break) {
-        return 0u;
+    if (!can_break) {
+        return bits;
     }
     let step = q.at - c.at;
     let depth_b = textureLoad(depths, clamped(c.at - step, size), 0);
     let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
-    if (can_meet) {
-        let slack = select(0.0, seam_slack(frame, max(c.depth, q.depth), 1.0 / frame.gbuffer_scale), (bits & ~LINE_CREASE & 255u) != 0u);
-        let found = meeting(depth_b, c.depth, q.depth, depth_a, slack);
-        if (found.meets) {
-            bits |= MEETING;
-        }
+    var plane = vec2f(0.0);
+    if (frame.detect.depth > 0.0) {
+        plane = vec2f(plane_step(c.at, step, c.depth, c.normal.xyz), plane_step(q.at, step, q.depth, q.normal.xyz));
     }
-    if (can_break) {
-        var plane = vec2f(0.0);
-        if (frame.detect.depth > 0.0) {
-            plane = vec2f(plane_step(c.at, step, c.depth, c.normal.xyz), plane_step(q.at, step, q.depth, q.normal.xyz));
-        }
-        let broken = breaks(depth_b, c.depth, q.depth, depth_a, plane);
-        var margin = -1.0;
-        if (frame.detect.laplacian > 0.0) {
-            margin = broken.x / frame.detect.laplacian - 1.0;
-        }
-        if (frame.detect.depth > 0.0) {
-            margin = max(margin, broken.y / frame.detect.depth - 1.0);
-        }
-        if (margin > 0.0) {
-            bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
-        }
+    let broken = breaks(depth_b, c.depth, q.depth, depth_a, plane);
+    var margin = -1.0;
+    if (frame.detect.laplacian > 0.0) {
+        margin = broken.x / frame.detect.laplacian - 1.0;
+    }
+    if (frame.detect.depth > 0.0) {
+        margin = max(margin, broken.y / frame.detect.depth - 1.0);
+    }
+    if (margin > 0.0) {
+        bits |= LINE_SILHOUETTE | (strength(margin) << MASK_SILHOUETTE_SHIFT);
     }
     return bits;
 }
@@ -231,24 +221,6 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
         return frame.pixel_footprint;
     }
     return frame.pixel_footprint * distance;
-}
-
-fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
-    let slope_c = depth_c - depth_b;
-    let slope_q = depth_a - depth_q;
-    let at_c = depth_c - (depth_q - slope_q);
-    let at_q = depth_c + slope_c - depth_q;
-    let scale = max(depth_c, depth_q);
-    let middle = 0.5 * (depth_c + depth_q);
-    if (max(abs(at_c), abs(at_q)) < 2e-6 * scale) {
-        return Meeting(true, 0.5, middle);
-    }
-    let t = at_c / (at_c - at_q);
-    let is_even = abs(depth_q - depth_c) <= 1.25 * max(abs(slope_c), abs(slope_q));
-    let is_small = min(abs(at_c), abs(at_q)) < slack;
-    let meets = (t > -0.25 && t < 1.25) || is_even || is_small;
-    let inside = clamp(t, 0.0, 1.0);
-    return Meeting(meets, inside, depth_c + inside * slope_c);
 }
 
 fn merged(a: u32, b: u32) -> u32 {
@@ -282,12 +254,9 @@ fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
     return depth * -dot(n.xy, step_px) * scale / facing;
 }
 
-fn seam_slack(frame: Frame, depth: f32, pixels: f32) -> f32 {
-    let step = SMALL_STEP * frame.pixel_footprint * pixels;
-    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
-        return step / (frame.depth_range.y - frame.depth_range.x);
-    }
-    return step * depth;
+fn side_at(at: vec2i, size: vec2i) -> Side {
+    let inside = clamped(at, size);
+    return Side(textureLoad(ids, inside, 0).xy, textureLoad(normals, inside, 0));
 }
 
 fn strength(margin: f32) -> u32 {
@@ -320,8 +289,26 @@ fn detect_lines(@builtin(global_invocation_id) id: vec3u) {
         if ((left.id.x | right.id.x | below.id.x | across.id.x) != 0u) {
             bits = merged(difference(left, across, size), difference(right, below, size));
         }
-        textureStore(mask, vec2i(x, y), vec4u(bits & ~MEETING, 0u, 0u, 0u));
-        if ((bits & MEETING) != 0u && frame.line_method == METHOD_CONTOUR) {
+        textureStore(mask, vec2i(x, y), vec4u(bits, 0u, 0u, 0u));
+        left = below;
+        right = across;
+    }
+}
+
+@compute @workgroup_size(64)
+fn list_seams(@builtin(global_invocation_id) id: vec3u) {
+    let size = vec2i(textureDimensions(ids));
+    let x = i32(id.x);
+    let first = i32(id.y) * ROWS;
+    if (x >= size.x) {
+        return;
+    }
+    var left = side_at(vec2i(x, first), size);
+    var right = side_at(vec2i(x + 1, first), size);
+    for (var y = first; y < min(first + ROWS, size.y); y++) {
+        let below = side_at(vec2i(x, y + 1), size);
+        let across = side_at(vec2i(x + 1, y + 1), size);
+        if (can_meet(left, across) || can_meet(right, below)) {
             let slot = atomicAdd(&counters[COUNT_SEAMS], 1u);
             if (slot < arrayLength(&seam_texels)) {
                 seam_texels[slot] = u32(x) | (u32(y) << 16u);

@@ -1,4 +1,5 @@
-//! Where lines are: differences in the G-buffer → the mask of line types.
+//! Where lines are: differences in the G-buffer → the mask of line types, or the list of texels where
+//! surfaces may meet.
 
 use super::surface::shader;
 use crate::render::gpu::{
@@ -12,7 +13,8 @@ use crate::render::{
 
 pub(crate) struct DetectPass {
     layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::ComputePipeline,
+    mask: wgpu::ComputePipeline,
+    seams: wgpu::ComputePipeline,
 }
 
 impl DetectPass {
@@ -29,16 +31,41 @@ impl DetectPass {
         ];
         let layout = layout(device, "detect", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "detect", &[&layout]);
-        let pipeline = compute_pipeline(device, &pipeline_layout, &module, "detect_lines");
-        Self { layout, pipeline }
+        let make = |entry| compute_pipeline(device, &pipeline_layout, &module, entry);
+        Self { mask: make("detect_lines"), seams: make("list_seams"), layout }
     }
 
-    pub(crate) fn run(
+    /// The types of lines in each texel.
+    pub(crate) fn mask(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         prepared: &Prepared,
         targets: &Targets,
+        timer: &mut Timer,
+    ) {
+        self.run(&self.mask, device, encoder, (prepared, targets), timer);
+    }
+
+    /// The texels where surfaces may meet without an edge.
+    pub(crate) fn seams(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        prepared: &Prepared,
+        targets: &Targets,
+        timer: &mut Timer,
+    ) {
+        encoder.clear_buffer(&prepared.strokes.counters, 0, None);
+        self.run(&self.seams, device, encoder, (prepared, targets), timer);
+    }
+
+    fn run(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        (prepared, targets): (&Prepared, &Targets),
         timer: &mut Timer,
     ) {
         use wgpu::BindingResource as R;
@@ -56,12 +83,11 @@ impl DetectPass {
                 (6, prepared.strokes.counters.as_entire_binding()),
             ],
         );
-        encoder.clear_buffer(&prepared.strokes.counters, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("detect"),
             timestamp_writes: timer.compute("detect"),
         });
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         // 64 columns and 8 rows a workgroup.
         let [width, height] = targets.size.gbuffer();
