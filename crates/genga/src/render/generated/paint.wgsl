@@ -90,6 +90,8 @@ const BASE_PRODUCT: u32 = 2u;
 
 const BEAM_HUE: f32 = 0.6;
 
+const BEAM_TINT: f32 = 0.5;
+
 const BLACK: f32 = 1.3;
 
 const BORDER: f32 = 0.03;
@@ -748,7 +750,7 @@ fn axis_side(axis: vec3f) -> vec3f {
 
 fn beam_lit(color: vec3f, beam: BeamShare) -> vec3f {
     let hue = beam.color - min(beam.color.r, min(beam.color.g, beam.color.b));
-    return 1.0 - (1.0 - color * beam.color) * (1.0 - BEAM_HUE * hue);
+    return 1.0 - (1.0 - color * mix(vec3f(1.0), beam.color, BEAM_TINT)) * (1.0 - BEAM_HUE * hue);
 }
 
 fn beam_step(color: vec3f, beam: BeamShare) -> vec3f {
