@@ -44,9 +44,8 @@ impl Shading {
         if !(0.0..=1.0).contains(&self.amount) {
             return Err("has an amount outside of 0 to 1".to_owned());
         }
-        match &self.proxy {
-            Some(proxy) => proxy.validate()?,
-            None => {}
+        if let Some(proxy) = &self.proxy {
+            proxy.validate()?;
         }
         let Some(face) = &self.face_shadow else { return Ok(()) };
         let (image, mirror) = (&face.image, face.mirror_u.unwrap_or(0.0));
