@@ -266,9 +266,16 @@ pub(crate) fn apron(prepared: &Prepared, view: &View) -> u32 {
     let wobble = lines.sets.iter().filter_map(|set| set.wobble).map(|w| w.amplitude);
     let wobble = wobble.fold(0.0, f32::max);
     let strokes = 2.0 * lines.strokes.min_length + lines.strokes.gap;
-    let ends = ((taper + strokes + wobble) * scale).ceil().clamp(0.0, 1024.0);
+    // Over which strokes become as thin as the ones that they go on in.
+    let handed_over = 0.5 * HANDED_OVER * widest;
+    let ends =
+        ((taper + strokes + wobble + handed_over + MARGIN_REACH) * scale).ceil().clamp(0.0, 1024.0);
     radius as u32 + ends as u32 + LOOKUP_MARGIN
 }
+
+/// As in `shaders/passes/strokes.wesl` and `shaders/passes/link.wesl`.
+const HANDED_OVER: f32 = 8.0;
+const MARGIN_REACH: f32 = 16.0;
 
 /// Largest half width in pixels, as in `shaders/passes/strokes.wesl`.
 const MAX_RADIUS: f32 = 256.0;

@@ -1,6 +1,7 @@
 //! Contour lines against their definition: where they are, how wide, how they change.
 
 mod hand;
+mod joined;
 mod motion;
 mod parts;
 mod place;
