@@ -33,7 +33,8 @@ pub fn even_strokes(spacing: f64, lum: f64, threshold: f64) -> Style {
 
 /// A plane that fills a view of so many metres, its rows of strokes level, tilted by `tilt_deg`
 /// round the horizontal. It stands beside the origin, so that no stroke lies in its middle.
-pub(super) fn plane(metres: f32, tilt_deg: f32) -> (genga::scene::Scene, View) {
+#[must_use]
+pub fn plane(metres: f32, tilt_deg: f32) -> (genga::scene::Scene, View) {
     let mut scene = Builder::new();
     let mut primitive = shapes::plane(Vec2::splat(metres * 4.0));
     let middle = Vec3::new(0.37, 0.71, 0.0) * metres;

@@ -212,7 +212,9 @@ fn a_beam_lights_only_what_is_near_and_faces_it() {
         draw(&scene.build(), &style(dark), &ortho_view([128, 128], 4.0))
     };
     let without = lit(None);
-    let with = lit(Some(BeamLight { intensity: 1.0, range: 1.0 }));
+    let light =
+        BeamLight { intensity: 1.0, range: 1.0, color: Some(Vec3::ONE), casts_shadow: false };
+    let with = lit(Some(light));
     let mut changed = 0;
     for (x, y) in with.places() {
         let (a, b) = (with.at(x, y)[0], without.at(x, y)[0]);
@@ -299,15 +301,20 @@ fn wrong_beams_get_a_sentence() {
         follow: false,
         roll: 0.0,
     };
+    let lamp = BeamLight { intensity: 1.0, range: 1.0, color: None, casts_shadow: false };
     for (beam, part) in [
         (Beam { shape: path(vec![Vec3::NAN, Vec3::X]), ..Beam::default() }, "its numbers must be"),
         (Beam { shape: path(vec![Vec3::X]), ..Beam::default() }, "it must have 2 to 10000"),
         (Beam { ramp: Vec::new(), ..Beam::default() }, "it must have 1 to 8"),
         (Beam { opacity: f32::NAN, ..Beam::default() }, "the opacity NaN"),
         (Beam { placement: holding, ..Beam::default() }, "there are only 0 nodes"),
+        (Beam { light: Some(BeamLight { range: 0.0, ..lamp }), ..Beam::default() }, "range 0"),
         (
-            Beam { light: Some(BeamLight { intensity: 1.0, range: 0.0 }), ..Beam::default() },
-            "range 0",
+            Beam {
+                light: Some(BeamLight { color: Some(Vec3::new(0.0, 2.0, 0.0)), ..lamp }),
+                ..Beam::default()
+            },
+            "the light's colour 2",
         ),
     ] {
         let scene = Scene { beams: vec![beam], ..Scene::default() };

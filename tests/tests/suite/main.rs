@@ -1,6 +1,7 @@
 //! Everything that needs a shader compiler, a device or pictures, in one program, so that the
 //! pipelines compile once.
 
+mod beam_light;
 mod beams;
 mod color;
 mod contours;
@@ -12,6 +13,7 @@ mod hatching_pictures;
 mod highlight_surfaces;
 mod highlights;
 mod lines;
+mod marks;
 mod motion;
 mod outlines;
 mod pipelines;

@@ -1,12 +1,15 @@
 //! Speed lines and smears.
 
 use genga::render::{LayerKind, Picture};
-use genga::scene::{Channel, ChannelTarget, Clip, Interpolation, Pose, Scene};
+use genga::scene::{
+    Beam, BeamOrder, BeamShape, BeamTone, Channel, ChannelTarget, Clip, Interpolation, MorphTarget,
+    Pose, Scene,
+};
 use genga::shapes;
 use genga::style::Style;
 use genga_tests::scenes::{Builder, moved, ortho_view, style};
 use genga_tests::{Pixels, shared};
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 /// Metres per second along x.
 const SPEED: f32 = 2.0;
@@ -122,6 +125,66 @@ fn the_trailing_side_is_left_behind_by_its_part_of_the_way() {
     let still = |x: u32, y: u32| picture.ids(x, y)[0] == 2;
     let still = columns(&picture, 50..78, still).expect("the other cube is there");
     assert_eq!(still, [176, 207]);
+}
+
+#[test]
+fn speed_lines_lie_before_beams_that_are_farther_away() {
+    let style = style(&LINES.replace("width = 8", "width = 8\ncolor = \"#0f0\""));
+    let drawn = |z: f32| {
+        let mut scene = cubes();
+        scene.beams.push(Beam {
+            shape: BeamShape::Path {
+                points: vec![Vec3::new(-3.0, 0.0, z), Vec3::new(3.0, 0.0, z)],
+                is_bezier: false,
+                radius: [0.4; 2],
+            },
+            ramp: vec![BeamTone { at: 0.0, color: Vec4::new(1.0, 0.0, 0.0, 1.0), softness: 0.0 }],
+            order: BeamOrder::Over,
+            ..Beam::default()
+        });
+        draw_at(&scene, &style, 5.25, false)
+    };
+    let (before, behind) = (drawn(-2.0), drawn(2.0));
+    let mask = before.floats(LayerKind::LineMask);
+    // Behind the cube, in the middle of the beam.
+    let places = || (110..145_u32).flat_map(|y| (150..200_u32).map(move |x| (x, y)));
+    let is_inked = |x: u32, y: u32| mask[4 * (before.width * y + x) as usize] >= 1.0;
+    let inked: Vec<_> = places().filter(|&(x, y)| is_inked(x, y)).collect();
+    assert!(inked.len() > 50, "only {} pixels of ink", inked.len());
+    for (x, y) in inked {
+        assert_eq!(before.at(x, y), [0, 255, 0, 255], "({x}, {y})");
+        assert_eq!(behind.at(x, y), [255, 0, 0, 255], "({x}, {y})");
+    }
+}
+
+#[test]
+fn morph_targets_smear_too() {
+    let mut scene = Builder::new();
+    let cube = shapes::cuboid(Vec3::splat(0.5));
+    let count = cube.positions.len();
+    let node = scene.object("fast", cube, None, moved(-20.0, 0.0, 0.0));
+    let mesh = scene.raw().nodes[node].mesh.expect("it has a mesh");
+    scene.raw().meshes[mesh].primitives[0].morph_targets =
+        vec![MorphTarget { positions: vec![Vec3::X * 10.0; count], normals: Vec::new() }];
+    scene.raw().clips.push(Clip {
+        name: "go".to_owned(),
+        channels: vec![Channel {
+            node,
+            target: ChannelTarget::MorphWeights { count: 1 },
+            interpolation: Interpolation::Linear,
+            times: vec![0.0, 10.0],
+            // To where the cube of the other tests is at any moment.
+            values: vec![1.0, 1.0 + SPEED],
+        }],
+    });
+    let text =
+        LINES.replace("density = 900", "density = 0") + "[motion.smear]\namount = 0.5\nnoise = 0\n";
+    let picture = draw_at(&scene.build(), &style(&text), 5.25, false);
+    let fast = |x: u32, y: u32| picture.ids(x, y)[0] == 1;
+    let [first, last] = columns(&picture, 120..136, fast).expect("the cube is there");
+    let left_behind = 0.5 * SPEED * 0.25 * 64.0 / 3.0_f32.sqrt();
+    assert!((first as f32 - (208.0 - left_behind)).abs() <= 1.0, "{first}");
+    assert!((last as f32 - 239.0).abs() <= 1.0, "its front stays: {last}");
 }
 
 #[test]

@@ -4,13 +4,14 @@ use std::sync::Arc;
 
 use genga::render::{LayerKind, Picture, View};
 use genga::scene::{
-    FaceShadow, LightKind, Material, Node, Pose, Primitive, Proxy, Scene, Shading, Transform,
+    FaceShadow, LightKind, Material, Mesh, Node, Pose, Primitive, Proxy, ProxyMesh, Scene, Shading,
+    Transform,
 };
 use genga::shapes;
 use genga::style::Style;
 use genga_tests::scenes::{Builder, image, light, ortho_view, style};
 use genga_tests::{Eye, Pixels, draw, draw_layers};
-use glam::{DVec3, Quat, Vec2, Vec3, Vec4};
+use glam::{Affine3A, DVec3, Quat, Vec2, Vec3, Vec4};
 
 const FROM: Vec3 = Vec3::new(-0.5, 0.6, 1.0);
 
@@ -77,6 +78,45 @@ fn a_proxy_turns_with_its_node_and_leaves_lines_alone() {
     let wanted = (Quat::from_rotation_y(0.7) * Vec3::Z).dot(FROM.normalize());
     assert_grey(&with, 48, 48, 0.5 + 0.5 * f64::from(wanted), 1.5);
     assert_eq!(with.floats(LayerKind::Normal), without.floats(LayerKind::Normal));
+}
+
+#[test]
+fn the_normals_of_a_mesh_stand_in_for_the_surfaces_own() {
+    // A box that is shaded as a ball, in a node that is turned, moved and stretched.
+    let rotation = Quat::from_rotation_y(0.6) * Quat::from_rotation_x(0.4);
+    let transform = Transform::Parts {
+        translation: Vec3::new(0.1, -0.05, 0.0),
+        rotation,
+        scale: Vec3::new(1.0, 1.5, 0.8),
+    };
+    let mut scene = Builder::new();
+    let frame = scene.node(Node { name: "frame".to_owned(), transform, ..Node::default() });
+    scene.object("box", shapes::cuboid(Vec3::splat(0.9)), None, transform);
+    scene.light(light(LightKind::Directional, 1.0), FROM);
+    let ball = shapes::uv_sphere(64, 32, 0.7);
+    let ball = Mesh { primitives: vec![ball], ..Mesh::default() };
+    let mesh = Arc::new(ProxyMesh::from_mesh(&ball, &Affine3A::IDENTITY));
+    let proxies = [
+        Proxy::Mesh { center: Vec3::ZERO, mesh },
+        Proxy::Ellipsoid { center: Vec3::ZERO, radii: Vec3::ONE, rotation: Quat::IDENTITY },
+    ];
+    let [by_mesh, by_formula] = proxies.map(|proxy| {
+        let mut scene = scene.clone();
+        let shading =
+            Shading { node: Some(frame), proxy: Some(proxy), amount: 1.0, ..Shading::default() };
+        scene.raw().shadings = vec![shading];
+        draw(&scene.build(), &greys(""), &view())
+    });
+    let (mut seen, mut least, mut most) = (0, 255, 0);
+    for (x, y) in by_mesh.places() {
+        let (a, b) = (by_mesh.at(x, y), by_formula.at(x, y));
+        if a[3] == 255 && a != [255; 4] {
+            seen += 1;
+            (least, most) = (least.min(b[0]), most.max(b[0]));
+            assert!(a[0].abs_diff(b[0]) <= 3, "({x}, {y}): {a:?}, not {b:?}");
+        }
+    }
+    assert!(seen > 1000 && most - least > 60, "{seen} pixels, from {least} to {most}");
 }
 
 /// A wall from −1 to 1 that faces the light.

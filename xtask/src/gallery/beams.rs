@@ -20,6 +20,7 @@ pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let sheets = [
         ramps(&of("curve")?)?,
         orders(&of("orders")?)?,
+        steps(&of("orders")?)?,
         light(&of("light")?)?,
         motion(&of("punch")?),
         final_pictures(&of("final")?),
@@ -61,7 +62,27 @@ fn orders(scene: &str) -> Result<Sheet> {
     Ok(Sheet { name: "beams-orders", cell: [280, 330], columns: 4, cells: cells? })
 }
 
-/// A beam without its light and with it, and a shield that is marked as a beam.
+/// After figure 4.2: the object alone, the beam alone, the beam over the object, the object's lines, and
+/// those multiplied on the beam.
+fn steps(scene: &str) -> Result<Sheet> {
+    let (head, rest) = scene.split_once("[[beam]]").unwrap_or((scene, ""));
+    let (_, camera) = rest.split_once("[camera]").unwrap_or(("", rest));
+    let object = format!("{head}[camera]{camera}");
+    let all_hidden = changed(scene, "hide = [\"sun\", \"shield\"]", "hide = [\"*\"]")?;
+    let before = changed(scene, "order = \"over\"", "order = \"over\"\noccluded = false")?;
+    let through = changed(&before, "order = \"over\"", "order = \"lines-through\"")?;
+    let lines = "version = 1\nextends = \"american-comic\"\n[paint]\nbase = \"none\"\n";
+    let cells = vec![
+        cell(object.clone()),
+        cell(all_hidden),
+        cell(before),
+        Cell { scene: object, style: Some(lines.to_owned()), options: Vec::new() },
+        cell(through),
+    ];
+    Ok(Sheet { name: "beams-steps", cell: [240, 280], columns: 5, cells })
+}
+
+/// A beam without its light, with it, and with its shadows, too; a shield that is marked as a beam.
 fn light(scene: &str) -> Result<Sheet> {
     let light = "light = { intensity = 2.5, range = 1.6 }\n";
     let marked = "[[beam]]\nshape = \"surface\"\nmodel = \"hero\"\nobjects = [\"shield\"]\n\
@@ -70,8 +91,17 @@ fn light(scene: &str) -> Result<Sheet> {
     let beam = scene.split("[[beam]]").nth(1).and_then(|rest| rest.split("[camera]").next());
     let shown = changed(scene, "\"sun\", \"shield\"", "\"sun\"")?;
     let shield = changed(&shown, &format!("[[beam]]{}", beam.unwrap_or("\0")), marked)?;
-    let cells = vec![cell(changed(scene, light, "")?), cell(scene.to_owned()), cell(shield)];
-    Ok(Sheet { name: "beams-light", cell: [300, 380], columns: 3, cells })
+    let with_shadows = Cell {
+        scene: changed(scene, "range = 1.6", "range = 1.6, casts_shadow = true")?,
+        style: Some(
+            "version = 1\nextends = \"night.style.toml\"\npaint.shadow = { enabled = true }\n"
+                .to_owned(),
+        ),
+        options: Vec::new(),
+    };
+    let cells =
+        vec![cell(changed(scene, light, "")?), cell(scene.to_owned()), with_shadows, cell(shield)];
+    Ok(Sheet { name: "beams-light", cell: [270, 342], columns: 4, cells })
 }
 
 /// Frames of a punch without motion, with speed lines, and with smears, too.

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use super::face;
 use super::sheet::{self, Cell, Sheet, changed, read};
 use crate::Result;
 
@@ -14,7 +15,15 @@ pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let scenes = root.join("assets/scenes/light");
     let stage = read(&scenes, "stage.scene.toml")?;
     let [head, teapot] = [read(&scenes, "head.scene.toml")?, read(&scenes, "teapot.scene.toml")?];
-    let all = [lights(&stage), ramps(&stage)?, shines(&teapot), prints(&teapot), faces(&head)?];
+    let all = [
+        lights(&stage),
+        ramps(&stage)?,
+        shines(&teapot),
+        shine_steps(&teapot),
+        prints(&teapot),
+        faces(&head)?,
+        face::sheet(&scenes)?,
+    ];
     sheet::draw(genga, &all, &scenes, folder)
 }
 
@@ -96,6 +105,29 @@ fn shines(teapot: &str) -> Sheet {
     });
     let cells = cells.collect();
     Sheet { name: "light-highlights", cell: [360, 300], columns: 3, cells }
+}
+
+/// After figures 4.5 to 4.8: exponents of 200, 100 and 50; highlights alone and where they belong.
+fn shine_steps(teapot: &str) -> Sheet {
+    let glaze =
+        "[[override]]\nselect = { materials = [\"glaze\", \"lid\", \"spout\", \"handle\"] }";
+    let alone = "version = 1\n[background]\ncolor = \"#000000\"\n[lines]\nmethod = \"none\"\n\
+                 [paint]\nbase = \"#000000\"\n";
+    let specular = |exponent: u32| format!("specular = {{ exponent = {exponent} }}");
+    let two_tones = specular(60);
+    let gradient = "specular = { form = \"gradient\", exponent = 10, gradient = 3 }";
+    let rim = "rim_light = { color = \"#ffffff\", azimuth_deg = 60, elevation_deg = 5, \
+               threshold = 0.62 }";
+    let mut cells = vec![cell(teapot.to_owned(), COMIC)];
+    let add = |style: &str, rest: &str| {
+        cell(teapot.to_owned(), &format!("{style}{glaze}\npaint.{rest}\n"))
+    };
+    cells.extend([200, 100, 50].map(|exponent| add(COMIC, &specular(exponent))));
+    for rest in [&two_tones, gradient, rim] {
+        cells.push(add(alone, rest));
+        cells.push(add(COMIC, rest));
+    }
+    Sheet { name: "light-highlight-steps", cell: [220, 190], columns: 5, cells }
 }
 
 /// Flat colours, a palette of nine, the dots of the old print, bare paper.

@@ -1,6 +1,7 @@
 //! `cargo xtask demo` and `cargo xtask gallery`: every preset on every model and scene.
 
 mod beams;
+mod face;
 mod hatching;
 mod highlights;
 mod light;

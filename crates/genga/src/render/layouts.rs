@@ -5,7 +5,7 @@ use super::gpu::bindings::{Binding as B, layout};
 /// See `shaders/lib/bindings.wesl` and the headers of the passes.
 pub(crate) struct Layouts {
     /// Group 0 of passes that draw surfaces: frame, draws, looks, rules, lights, ramp pictures,
-    /// shadow maps, the draw's number, places of stipple.
+    /// shadow maps, the draw's number, places of stipple, normals of meshes.
     pub(crate) surface: wgpu::BindGroupLayout,
     /// Group 1 of passes that draw surfaces: base colour, emissive, ids, hatching.
     pub(crate) material: wgpu::BindGroupLayout,
@@ -54,6 +54,7 @@ impl Layouts {
                     (9, B::Uniform),
                     (10, B::DynamicUniform),
                     (11, B::Uint),
+                    (12, B::FilteredLayers),
                 ],
             ),
             material: layout(

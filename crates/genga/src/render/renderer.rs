@@ -391,8 +391,9 @@ impl Renderer {
         let frame = frame_values(prepared, view, projected, tiles, output);
         prepared.highlights.write(&self.queue, prepared, view, &lights);
         prepared.shadings.write(&self.queue, &lights);
-        let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
         lights.extend(prepared.beams.lights());
+        lights.truncate(MAX_LIGHTS);
+        let maps = prepared.shadows.write(&self.queue, prepared, view, projected, &mut lights);
         // Loops over them end at the first one without weight.
         lights.resize(MAX_LIGHTS, bytemuck::Zeroable::zeroed());
         self.queue.write_buffer(&prepared.light_data, 0, bytemuck::cast_slice(&lights));

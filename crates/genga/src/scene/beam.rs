@@ -146,7 +146,9 @@ pub enum BeamOrder {
 }
 
 /// What a beam lights: it adds to the ramp coordinate of surfaces that face the beam's middle line
-/// (or middle) nearby, through the same ramp as all lights, and takes nothing from others.
+/// (or middle) nearby, through the same ramp as all lights, and takes nothing from others. What the
+/// ramp shows more because of it has its colour: of the step from the tone without it to the tone with
+/// it, each of red, green and blue takes the colour's part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamLight {
     /// Strength, ≥ 0; 1 is that of all other lights together. It grows and shrinks with the beam's
@@ -154,9 +156,24 @@ pub struct BeamLight {
     pub intensity: f32,
     /// Metres at which it ends, > 0.
     pub range: f32,
+    /// As displayed (sRGB-encoded), 0 to 1; `None` for the mean of the ramp's tones, weighted by their
+    /// alpha and made as bright as it can be.
+    pub color: Option<Vec3>,
+    /// Whether surfaces cast its shadows, as from a lamp in its middle, if the style has shadows: what
+    /// that is inside of hides all of its light.
+    pub casts_shadow: bool,
 }
 
 impl Beam {
+    /// The displayed colour of its light.
+    pub(crate) fn light_color(&self) -> Vec3 {
+        if let Some(color) = self.light.and_then(|light| light.color) {
+            return color;
+        }
+        let sum: Vec3 = self.ramp.iter().map(|tone| tone.color.truncate() * tone.color.w).sum();
+        if sum.max_element() > 0.0 { sum / sum.max_element() } else { Vec3::ONE }
+    }
+
     /// What is wrong with it, as the rest of a sentence that begins with the beam.
     ///
     /// `nodes` is the number of nodes that it may refer to.
@@ -190,6 +207,8 @@ impl Beam {
         if let Some(light) = &self.light {
             number("light's intensity", light.intensity, 0.0, LARGEST)?;
             number("light's range", light.range, 1e-6, LARGEST)?;
+            let color = light.color.unwrap_or(Vec3::ONE).to_array();
+            color.iter().try_for_each(|&part| number("light's colour", part, 0.0, 1.0))?;
         }
         let [tail, head] = self.growth;
         if !(0.0 <= tail && tail <= head && head <= 1.0) {

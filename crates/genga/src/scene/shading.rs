@@ -14,7 +14,8 @@ pub struct Shading {
     pub objects: Globs,
     /// Globs of material names; empty for all.
     pub materials: Globs,
-    /// The smooth shape whose normals take the place of the surface's; not a mesh.
+    /// The smooth shape whose normals take the place of the surface's. Those of a mesh are taken where
+    /// the ray from its centre through a place leaves it.
     pub proxy: Option<Proxy>,
     /// How much of them: 0 leaves the surface's own, 1 takes the proxy's alone.
     pub amount: f32,
@@ -43,12 +44,8 @@ impl Shading {
         if !(0.0..=1.0).contains(&self.amount) {
             return Err("has an amount outside of 0 to 1".to_owned());
         }
-        match &self.proxy {
-            Some(Proxy::Mesh { .. }) => {
-                return Err("has a mesh as its proxy, which only highlights can have".to_owned());
-            }
-            Some(proxy) => proxy.validate()?,
-            None => {}
+        if let Some(proxy) = &self.proxy {
+            proxy.validate()?;
         }
         let Some(face) = &self.face_shadow else { return Ok(()) };
         let (image, mirror) = (&face.image, face.mirror_u.unwrap_or(0.0));

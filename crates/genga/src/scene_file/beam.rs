@@ -102,6 +102,11 @@ struct Light {
     /// Metres at which it ends.
     #[schemars(range(min = 1e-6, max = 1e6))]
     range: f32,
+    /// Its colour; the mean of the ramp's by default.
+    color: Option<Color>,
+    /// Whether surfaces cast its shadows, as from a lamp in the beam's middle, which must be free.
+    #[serde(default)]
+    casts_shadow: bool,
 }
 
 fn one() -> f32 {
@@ -262,7 +267,12 @@ impl TryFrom<Written> for BeamEntry {
             occluded: w.occluded.unwrap_or(true),
             size: 1.0,
             growth: w.growth.unwrap_or(base.growth),
-            light: w.light.map(|l| BeamLight { intensity: l.intensity, range: l.range }),
+            light: w.light.map(|l| BeamLight {
+                intensity: l.intensity,
+                range: l.range,
+                color: l.color.map(|color| Vec4::from(color.to_array()).truncate()),
+                casts_shadow: l.casts_shadow,
+            }),
         };
         beam.check(usize::MAX)?;
         let is_trail = w.shape == Kind::LightTrail;

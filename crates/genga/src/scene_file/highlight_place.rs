@@ -226,7 +226,8 @@ impl Places<'_> {
                 let Some(name) = &proxy.mesh else {
                     return Err(self.file.error(proxy, "a mesh needs the node 'mesh'".to_owned()));
                 };
-                let owner = self.node(name, instance)?;
+                // It may be a hidden model of its own.
+                let owner = self.node(name, instance).or_else(|_| self.node(name, None))?;
                 let of = self.instances.iter().find_map(|instance| {
                     let index = owner.checked_sub(instance.top + 1)?;
                     *instance.meshes.get(index)?

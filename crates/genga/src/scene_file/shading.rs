@@ -19,8 +19,7 @@ pub struct ShadingEntry {
     /// Globs of material names; empty for all.
     #[serde(default)]
     pub materials: Globs,
-    /// The smooth shape whose normals stand in for the surface's: a sphere, ellipsoid, capsule or
-    /// plane.
+    /// The smooth shape whose normals stand in for the surface's.
     pub proxy: Option<Located<ProxyEntry>>,
     /// How much of them: 0 leaves the surface's own, 1 takes the shape's alone.
     #[serde(default = "most")]
@@ -49,9 +48,6 @@ impl ShadingEntry {
             return Err("must not have 'mirror_u' without a 'face_shadow'".to_owned());
         }
         match &self.proxy {
-            Some(proxy) if proxy.r#type == super::ProxyKind::Mesh => {
-                Err("must not have a mesh as its 'proxy': only highlights can".to_owned())
-            }
             Some(proxy) if proxy.radius.is_some() => {
                 Err("must have a 'proxy' without 'radius', which only highlights have".to_owned())
             }

@@ -32,9 +32,9 @@ struct Deform {
     smear_noise: f32,
     smear_spacing: f32,
     smear_seed: u32,
+    past_weights: u32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct RestVertex {
@@ -70,6 +70,18 @@ fn hashed(cell: vec3i, seed: u32) -> vec2f {
     return vec2f(f32(h & 65535u), f32(h >> 16u)) / 32767.5 - 1.0;
 }
 
+fn morphed(index: u32, offset: u32) -> vec3f {
+    var sum = vec3f(0.0);
+    let target_count = min(deform.target_count, arrayLength(&morph_weights));
+    for (var target_index = 0u; target_index < target_count; target_index++) {
+        let weight = morph_weights[deform.weight_first + offset + target_index];
+        if (weight != 0.0) {
+            sum += weight * offset_at(deform.morph_first + 6u * (target_index * deform.vertex_count + index));
+        }
+    }
+    return sum;
+}
+
 fn octahedral_pack(n: vec3f) -> u32 {
     let sum = max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
     var p = n.xy / sum;
@@ -100,7 +112,7 @@ fn sign_not_zero(v: vec2f) -> vec2f {
     return select(vec2f(-1.0), vec2f(1.0), v >= vec2f(0.0));
 }
 
-fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f, rows: mat3x3f) -> vec3f {
+fn smeared(rest_p: vec3f, p_before: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f, rows: mat3x3f) -> vec3f {
     if (deform.smear <= 0.0) {
         return vec3f(0.0);
     }
@@ -108,7 +120,7 @@ fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f,
     for (var i = 0u; i < 4u; i++) {
         if (weights[i] > 0.0) {
             let first = 3u * (deform.past_offset + deform.matrix_first + joints[i]);
-            before += weights[i] * vec3f(dot(matrices[first], vec4f(p, 1.0)), dot(matrices[first + 1u], vec4f(p, 1.0)), dot(matrices[first + 2u], vec4f(p, 1.0)));
+            before += weights[i] * vec3f(dot(matrices[first], vec4f(p_before, 1.0)), dot(matrices[first + 1u], vec4f(p_before, 1.0)), dot(matrices[first + 2u], vec4f(p_before, 1.0)));
         }
     }
     let way = before - p_in_world;
@@ -119,7 +131,7 @@ fn smeared(p: vec3f, p_in_world: vec3f, joints: vec4u, weights: vec4f, n: vec3f,
     }
     let cofactors = vec3f(dot(cross(rows[1], rows[2]), n), dot(cross(rows[2], rows[0]), n), dot(cross(rows[0], rows[1]), n));
     let trailing = saturate(dot(normalize(scaled(cofactors)), way / length_m));
-    let noise = 0.5 + 0.5 * value_noise(p / max(deform.smear_spacing, 1e-6), deform.smear_seed).x;
+    let noise = 0.5 + 0.5 * value_noise(rest_p / max(deform.smear_spacing, 1e-6), deform.smear_seed).x;
     return way * deform.smear * fast * trailing * mix(1.0, noise, deform.smear_noise);
 }
 
@@ -175,7 +187,8 @@ fn deform_vertices(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgr
     let p_in_world = vec3f(dot(row_x, vec4f(p, 1.0)), dot(row_y, vec4f(p, 1.0)), dot(row_z, vec4f(p, 1.0)));
     var placed = p_in_world;
     if (SMEAR) {
-        placed += smeared(p, p_in_world, joints, weights / total, smooth_n, mat3x3f(row_x.xyz, row_y.xyz, row_z.xyz));
+        let p_before = p - morphed(index, 0u) + morphed(index, deform.past_weights);
+        placed += smeared(vec3f(vertex.x, vertex.y, vertex.z), p_before, p_in_world, joints, weights / total, smooth_n, mat3x3f(row_x.xyz, row_y.xyz, row_z.xyz));
     }
     let c_x = cross(row_y.xyz, row_z.xyz);
     let c_y = cross(row_z.xyz, row_x.xyz);

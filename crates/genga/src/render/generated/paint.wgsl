@@ -12,6 +12,9 @@ var<uniform> drawn: DrawNumber;
 @group(0) @binding(11)
 var stipple_points: texture_2d<u32>;
 
+@group(0) @binding(12)
+var proxy_normals: texture_2d_array<f32>;
+
 @group(0) @binding(2)
 var<storage, read> looks: array<Look>;
 
@@ -84,6 +87,10 @@ var repeated: sampler;
 const BASE_COLOR: u32 = 1u;
 
 const BASE_PRODUCT: u32 = 2u;
+
+const BEAM_HUE: f32 = 0.6;
+
+const BEAM_TINT: f32 = 0.5;
 
 const BLACK: f32 = 1.3;
 
@@ -209,6 +216,8 @@ const OUTPUT_SHADOW: u32 = 5u;
 
 const OUTPUT_TONE: u32 = 4u;
 
+const OUTSHINES: f32 = 0.5;
+
 const RULE_BASE_COLOR: u32 = 1u;
 
 const RULE_ID_TEXTURE: u32 = 4u;
@@ -241,6 +250,12 @@ struct Axes {
     best: vec3f,
     second: vec3f,
     lead: f32
+}
+
+struct BeamShare {
+    without: vec3f,
+    color: vec3f,
+    outshone: f32
 }
 
 struct Detect {
@@ -459,7 +474,8 @@ struct Light {
     kind: u32,
     shadow_first: u32,
     shadow_maps: u32,
-    reserved_0: u32
+    reserved_0: u32,
+    color: vec4f
 }
 
 struct LightTerm {
@@ -607,7 +623,11 @@ struct Shading {
     normals_x: vec4f,
     normals_y: vec4f,
     normals_z: vec4f,
-    face: vec4f
+    face: vec4f,
+    normal_map: i32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct ShadowMap {
@@ -677,6 +697,13 @@ struct Tone {
     reserved_0: f32
 }
 
+struct Tones {
+    lit: f32,
+    dark: f32,
+    part: f32,
+    width: f32
+}
+
 struct VertexInput {
     @location(0)
     p_in_world: vec3f,
@@ -719,6 +746,15 @@ fn area_for(h: f32, m: f32) -> f32 {
 
 fn axis_side(axis: vec3f) -> vec3f {
     return unit(cross(axis, select(vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, 1.0), abs(axis.y) > abs(axis.z))));
+}
+
+fn beam_lit(color: vec3f, beam: BeamShare) -> vec3f {
+    let hue = beam.color - min(beam.color.r, min(beam.color.g, beam.color.b));
+    return 1.0 - (1.0 - color * mix(vec3f(1.0), beam.color, BEAM_TINT)) * (1.0 - BEAM_HUE * hue);
+}
+
+fn beam_step(color: vec3f, beam: BeamShare) -> vec3f {
+    return mix(beam.without, color, beam.color);
 }
 
 fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split: vec2f, square: f32) -> f32 {
@@ -816,7 +852,7 @@ fn flat_strokes(pen: Pen, p: vec2f, dx: vec2f, dy: vec2f, way: vec2f, share: f32
     let across = vec2f(-way.y, way.x);
     let slope = length(vec2f(dot(across, dx), dot(across, dy)));
     let along = Way(dot(way, p), length(vec2f(dot(way, dx), dot(way, dy))), 1.0);
-    return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec2f(share, 0.0), salt);
+    return strokes(pen, dot(across, p), slope, array(along, Way(0.0, 1.0, -1.0)), vec3f(1.0, 0.0, share), salt);
 }
 
 fn footing_of(map: u32, receiver: Receiver, to_light: vec3f) -> Footing {
@@ -1157,7 +1193,8 @@ fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -
         return 1.0;
     }
     let map = map_of(light, receiver);
-    let footing = footing_of(map, receiver, to_light);
+    let to_source = normalize(select(to_light, to_lamp(light, receiver.p_in_world), lights[light].kind == LIGHT_BEAM));
+    let footing = footing_of(map, receiver, to_source);
     let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
     let long = select(footing.py, footing.px, is_wide);
     let short = select(footing.px, footing.py, is_wide);
@@ -1272,7 +1309,7 @@ fn map_of(light: u32, receiver: Receiver) -> u32 {
         }
         return first + cascade;
     }
-    let d = p_in_world - lights[light].position.xyz;
+    let d = -to_lamp(light, p_in_world);
     let a = abs(d);
     if (a.x >= a.y && a.x >= a.z) {
         return first + select(1u, 0u, d.x >= 0.0);
@@ -1379,12 +1416,35 @@ fn nearest_color(color: vec3f) -> vec3f {
     return frame.palette[best].color.rgb;
 }
 
+fn nearest_with_beams(color: vec3f, beam: BeamShare) -> vec3f {
+    if (BEAM_LIGHTS == 0u) {
+        return nearest_color(color);
+    }
+    return mix(nearest_color(beam_step(color, beam)), nearest_color(beam_lit(color, beam)), beam.outshone);
+}
+
 fn next_distance(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> f32 {
     if (SHARE_PROXY) {
         return distance_on_ball(i, first, p_in_world, to_eye);
     }
     let reflected = reflected_view(i, p_in_world, normal, to_eye);
     return distance_on_ball(i, reflected, p_in_world, to_eye);
+}
+
+fn normal_in_direction(direction: vec3f, layer: i32) -> vec3f {
+    let sum = max(abs(direction.x) + abs(direction.y) + abs(direction.z), 1e-30);
+    var o = direction.xy / sum;
+    if (direction.z < 0.0) {
+        o = (1.0 - abs(o.yx)) * select(vec2f(-1.0), vec2f(1.0), o >= vec2f(0.0));
+    }
+    let side = i32(textureDimensions(proxy_normals).x);
+    let at = clamp((o * 0.5 + 0.5) * f32(side - 2) + 0.5, vec2f(0.0), vec2f(f32(side - 1)));
+    let corner = clamp(vec2i(floor(at)), vec2i(0), vec2i(max(side - 2, 0)));
+    let part = at - vec2f(corner);
+    let across = vec2i(1, 0);
+    let below = mix(textureLoad(proxy_normals, corner, layer, 0).xyz, textureLoad(proxy_normals, corner + across, layer, 0).xyz, part.x);
+    let above = mix(textureLoad(proxy_normals, corner + across.yx, layer, 0).xyz, textureLoad(proxy_normals, corner + vec2i(1), layer, 0).xyz, part.x);
+    return mix(below, above, part.y);
 }
 
 fn octahedral_unpack(bits: u32) -> vec3f {
@@ -1449,7 +1509,7 @@ fn placed_axis(sorted: vec3f, rank: vec3u, x: vec3f) -> vec3f {
     return signed_axis(select(-sizes, sizes, x >= vec3f(0.0)));
 }
 
-fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec2f, salt: u32) -> f32 {
+fn plane_strokes(pen: Pen, at: Frames, rest: vec3f, axis: vec3f, share: vec3f, salt: u32) -> f32 {
     let slope = length(vec2f(dot(axis, at.right), dot(axis, at.up)));
     let u = axis_side(axis);
     let ways = array(way_along(u, at, rest), way_along(cross(axis, u), at, rest));
@@ -1673,10 +1733,17 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let look_index = material.look;
     let look_flags = looks[look_index].flags;
     var sum = 0.0;
+    var beam_sum = 0.0;
+    var beam_color = vec3f(0.0);
     let first_term = light_term(lights[0], in.p_in_world, normal).term;
     var face_change = 0.0;
     for (var i = 0u; i < LIGHTS; i++) {
-        sum += lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        let share = lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        sum += share;
+        if (i + BEAM_LIGHTS >= LIGHTS) {
+            beam_sum += share;
+            beam_color += share * lights[i].color.rgb;
+        }
     }
     var receiver: Receiver;
     if (SHADOWS) {
@@ -1695,6 +1762,14 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     }
     let sum_width = fwidth(sum);
     let picture_width = fwidth(picture);
+    var own_width = sum_width;
+    var outshone = 0.0;
+    var beam_free = 0.0;
+    if (BEAM_LIGHTS > 0u) {
+        own_width = fwidth(sum - beam_sum);
+        outshone = saturate((beam_sum - OUTSHINES) / max(fwidth(beam_sum), 0.0001) + 0.5);
+        beam_free = beam_sum;
+    }
     var rim = 0.0;
     var rim_width = 0.0;
     if (frame.line_method == METHOD_RIM) {
@@ -1720,6 +1795,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     let t_free = ramp_coordinate(sum, gain, bias);
     var t = t_free;
     var t_width = free_width;
+    var own_lit = ramp_coordinate(sum - beam_sum, gain, bias);
+    var own_dark = own_lit;
+    var own_part = 1.0;
     var t_lit = t_free;
     var t_dark = t_free;
     var lit = 1.0;
@@ -1733,23 +1811,44 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var upper = 0.0;
             var lower = 0.0;
             reach = 0.0;
+            var beam_mixed = 0.0;
+            var beam_upper = 0.0;
+            var beam_lower = 0.0;
+            beam_color = vec3f(0.0);
             for (var i = 0u; i < LIGHTS; i++) {
                 let weight = lights[i].factors.x;
                 let light = light_term(lights[i], in.p_in_world, normal);
                 let term = light.term + select(0.0, face_change, i == 0u);
-                let matters = OUTPUT == OUTPUT_SHADOW || term > min(cap, 0.0);
+                let is_beam = i + BEAM_LIGHTS >= LIGHTS;
+                let matters = OUTPUT == OUTPUT_SHADOW || term > select(min(cap, 0.0), 0.0, is_beam);
                 let reached = light_reach(i, receiver, light.to_light, matters);
-                let capped = min(term, cap);
+                let capped = select(min(term, cap), 0.0, is_beam);
                 mixed += weight * mix(capped, term, reached);
                 upper += weight * select(capped, term, reached > 0.0);
                 lower += weight * select(term, capped, reached < 1.0);
-                reach += weight * reached;
+                if (is_beam) {
+                    beam_mixed += weight * mix(capped, term, reached);
+                    beam_upper += weight * select(capped, term, reached > 0.0);
+                    beam_lower += weight * select(term, capped, reached < 1.0);
+                    beam_color += weight * mix(capped, term, reached) * lights[i].color.rgb;
+                }
+                else {
+                    reach += weight * reached;
+                }
                 key_reach = select(key_reach, reached, i == 0u);
             }
             lit = saturate((mixed - lower) / max(upper - lower, 1e-6));
             t_lit = ramp_coordinate(upper, gain, bias);
             t_dark = ramp_coordinate(lower, gain, bias);
             t = ramp_coordinate(mixed, gain, bias);
+            if (BEAM_LIGHTS > 0u) {
+                let own_upper = upper - beam_upper;
+                let own_lower = lower - beam_lower;
+                own_part = saturate((mixed - beam_mixed - own_lower) / max(own_upper - own_lower, 1e-6));
+                own_lit = ramp_coordinate(own_upper, gain, bias);
+                own_dark = ramp_coordinate(own_lower, gain, bias);
+                beam_sum = beam_mixed;
+            }
             t_width = select(max(free_width, t_lit - t_dark), free_width, lit <= 0.0 || lit >= 1.0);
         }
     }
@@ -1766,21 +1865,15 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var in_light = 1.0;
     var color = base;
     if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
-        if ((look_flags & LOOK_RAMP_IMAGE) != 0u) {
-            color = base * ramp_picture(looks[look_index].ramp_row, t_lit);
-            if (SHADOWS) {
-                let dark = base * ramp_picture(looks[look_index].ramp_row, t_dark);
-                color = mix(dark, color, lit);
-            }
+        var beam = BeamShare(vec3f(0.0), vec3f(1.0), 0.0);
+        if (BEAM_LIGHTS > 0u) {
+            let width = free_width + 0.5 * gain * (own_width - sum_width);
+            beam.without = toned(look_index, base, Tones(own_lit, own_dark, own_part, width), beam);
+            beam.color = beam_color / max(beam_sum, 1e-6);
+            beam.outshone = outshone * saturate(beam_sum / max(beam_free, 1e-6));
         }
-        else {
-            color = under_ramp(look_index, base, t_lit, free_width);
-            in_light = brightest;
-            if (SHADOWS) {
-                color = mix(under_ramp(look_index, base, t_dark, free_width), color, lit);
-                in_light = mix(brightest, in_light, lit);
-            }
-        }
+        color = toned(look_index, base, Tones(t_lit, t_dark, lit, free_width), beam);
+        in_light = brightest;
     }
     if (OUTPUT == OUTPUT_SHADOW) {
         color = vec3f(reach);
@@ -1826,7 +1919,14 @@ fn shading_normal(shading: u32, p_in_world: vec3f, normal: vec3f) -> vec3f {
     let along = clamp(dot(from_center, axis), 0.0, shadings[shading].axis_length);
     let q = vec4f(from_center - axis * along, 1.0);
     let n = vec3f(dot(shadings[shading].normals_x, q), dot(shadings[shading].normals_y, q), dot(shadings[shading].normals_z, q));
-    let unit = n * inverseSqrt(max(dot(n, n), 1e-30));
+    var turned = n;
+    if (PROXY_MESHES) {
+        let layer = shadings[shading].normal_map;
+        let mapped = normal_in_direction(n, max(layer, 0));
+        let in_world = shadings[shading].normals_x.xyz * mapped.x + shadings[shading].normals_y.xyz * mapped.y + shadings[shading].normals_z.xyz * mapped.z;
+        turned = select(n, in_world, layer >= 0);
+    }
+    let unit = turned * inverseSqrt(max(dot(turned, turned), 1e-30));
     return mix(normal, unit, shadings[shading].amount);
 }
 
@@ -1947,7 +2047,7 @@ fn stroke_ink(look: u32, pen: Pen, lum: f32, point: HatchPoint) -> f32 {
     return ink;
 }
 
-fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f, salt: u32) -> f32 {
+fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec3f, salt: u32) -> f32 {
     let lines = octave(across, slope * pen.spacing);
     let seed = pen.seed ^ salt;
     let even = hand(pen, lines.even * lines.period, ways, seed);
@@ -1962,7 +2062,10 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec2f,
     let black = saturate(2.5 * (1.3 - wanted));
     let heavier = min(black * (0.2 + 1.3 * light) * (weight - 0.25), vec2f(1.5 * max(wanted, 0.0)));
     let darkness = vec2f(wanted) + loose * (heavier - 1.8 * light * light * gap);
-    let tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
+    var tone = clamp(darkness, vec2f(0.0), vec2f(0.999));
+    if (HATCH_HAS_CROSS) {
+        tone = 1.0 - shared_rest(tone, vec2f(share.z));
+    }
     var part = 1.0 - shared_rest(tone, carried);
     part = select(part, vec2f(1.3), darkness >= vec2f(1.0));
     let grown = 0.5 * lines.size;
@@ -2035,13 +2138,13 @@ fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> 
     let axes = nearest_axes(at.across);
     let lead = 0.5 * axes.lead / BORDER;
     let jitter = 0.25 * pen.irregularity;
-    let parts = share * vec2f(0.5 + lead, 0.5 - lead);
-    let count = select(1u, 2u, parts.y > -share * jitter);
+    let parts = vec2f(0.5 + lead, 0.5 - lead);
+    let count = select(1u, 2u, parts.y > -jitter);
     var open = 1.0;
     for (var i = 0u; i < select(0u, count, share > 0.0); i++) {
         let axis = select(axes.best, axes.second, i == 1u);
         let part = select(parts.x, parts.y, i == 1u);
-        open *= 1.0 - plane_strokes(pen, at, rest, axis, vec2f(part, share * jitter), salt);
+        open *= 1.0 - plane_strokes(pen, at, rest, axis, vec3f(part, jitter, share), salt);
     }
     return 1.0 - open;
 }
@@ -2051,6 +2154,11 @@ fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
         return frame.eye.xyz;
     }
     return normalize(frame.eye.xyz - p_in_world);
+}
+
+fn to_lamp(light: u32, p_in_world: vec3f) -> vec3f {
+    let along = select(0.0, 0.5, lights[light].kind == LIGHT_BEAM);
+    return lights[light].position.xyz + along * lights[light].direction.xyz - p_in_world;
 }
 
 fn tone_color(look: u32, index: u32) -> RampColor {
@@ -2067,6 +2175,25 @@ fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
     return select(weight, weight * weight * (3.0 - 2.0 * weight), softness > width);
 }
 
+fn toned(look: u32, base: vec3f, at: Tones, beam: BeamShare) -> vec3f {
+    if ((looks[look].flags & LOOK_RAMP_IMAGE) != 0u) {
+        brightest = 1.0;
+        var color = base * ramp_picture(looks[look].ramp_row, at.lit);
+        if (SHADOWS) {
+            let dark = base * ramp_picture(looks[look].ramp_row, at.dark);
+            color = mix(dark, color, at.part);
+        }
+        return with_beams(color, beam);
+    }
+    var color = under_ramp(look, base, at.lit, at.width, beam);
+    let in_light = brightest;
+    if (SHADOWS) {
+        color = mix(under_ramp(look, base, at.dark, at.width, beam), color, at.part);
+        brightest = mix(brightest, in_light, at.part);
+    }
+    return color;
+}
+
 fn transformed_uv(uv: vec2f, row_u: vec4f, row_v: vec4f) -> vec2f {
     return vec2f(dot(row_u.xyz, vec3f(uv, 1.0)), dot(row_v.xyz, vec3f(uv, 1.0)));
 }
@@ -2075,26 +2202,26 @@ fn turned_by(way: vec2f, turn: vec2f) -> vec2f {
     return vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
 }
 
-fn under_ramp(look: u32, base: vec3f, t: f32, width: f32) -> vec3f {
+fn under_ramp(look: u32, base: vec3f, t: f32, width: f32, beam: BeamShare) -> vec3f {
     if (PALETTE) {
         if ((looks[look].flags & LOOK_SMOOTH_RAMP) == 0u) {
             let first = tone_color(look, 0u);
-            var color = nearest_color(base * first.factor + first.added);
+            var color = nearest_with_beams(base * first.factor + first.added, beam);
             for (var i = 1u; i < looks[look].tone_count; i++) {
                 let weight = tone_weight(look, i, t, width);
                 brightest = weight;
                 if (weight > 0.0) {
                     let tone = tone_color(look, i);
-                    color = mix(color, nearest_color(base * tone.factor + tone.added), weight);
+                    color = mix(color, nearest_with_beams(base * tone.factor + tone.added, beam), weight);
                 }
             }
             return color;
         }
         let ramp = ramp_color(look, t, width);
-        return nearest_color(base * ramp.factor + ramp.added);
+        return nearest_with_beams(base * ramp.factor + ramp.added, beam);
     }
     let ramp = ramp_color(look, t, width);
-    return base * ramp.factor + ramp.added;
+    return with_beams(base * ramp.factor + ramp.added, beam);
 }
 
 fn unit(v: vec3f) -> vec3f {
@@ -2118,6 +2245,13 @@ fn viewport_clip(frame: Frame, clip: vec4f, texels_per_pixel: f32) -> vec4f {
 
 fn way_along(way: vec3f, at: Frames, rest: vec3f) -> Way {
     return Way(dot(way, rest), length(vec2f(dot(way, at.right), dot(way, at.up))), abs(dot(way, at.along)));
+}
+
+fn with_beams(color: vec3f, beam: BeamShare) -> vec3f {
+    if (BEAM_LIGHTS == 0u) {
+        return color;
+    }
+    return mix(beam_step(color, beam), beam_lit(color, beam), beam.outshone);
 }
 
 fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
@@ -2261,6 +2395,8 @@ fn paint_vertex(in: VertexInput) -> Surface {
 
 override BASE: u32 = 0u;
 
+override BEAM_LIGHTS: u32 = 0u;
+
 override BLENDS_NORMALS: bool = false;
 
 override DOTS: bool = false;
@@ -2316,6 +2452,8 @@ override ON_PANORAMA: bool = false;
 override OUTPUT: u32 = 0u;
 
 override PALETTE: bool = false;
+
+override PROXY_MESHES: bool = false;
 
 override REPLACES: bool = false;
 

@@ -165,11 +165,27 @@ fn capsule_place(p: vec2f, a: vec2f, b: vec2f, radius_a: f32, radius_b: f32) -> 
     return CapsulePlace(distance, mix(radius_a, radius_b, t), t);
 }
 
+fn depth_from_line(frame: Frame, line_depth: f32) -> f32 {
+    let range = frame.depth_range;
+    let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    return saturate(select(range.x * line_depth, (range.y - line_depth) / max(range.y - range.x, 1e-30), is_ortho));
+}
+
 fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return mix(frame.depth_range.y, frame.depth_range.x, depth);
     }
     return frame.depth_range.x / max(depth, 1e-30);
+}
+
+fn ink_at(in: Stroke) -> vec2f {
+    let p_px = in.clip.xy + frame.tile_origin;
+    let place = capsule_place(p_px, in.ends.xy, in.ends.zw, in.shape.x, in.shape.y);
+    let coverage = line_coverage(place.distance, place.radius);
+    let depth = textureLoad(depths, vec2i(in.clip.xy), 0).x;
+    let line_depth = mix(in.shape.z, in.shape.w, place.t);
+    let is_seen = behind_in_pixels(frame, line_depth, depth) <= ON_SURFACE;
+    return vec2f(select(0.0, coverage, is_seen), line_depth);
 }
 
 fn line_coverage(distance: f32, radius: f32) -> f32 {
@@ -204,16 +220,21 @@ fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
 }
 
 @fragment
-fn speed_line_fragment(in: Stroke) -> @location(0) vec4f {
-    let p_px = in.clip.xy + frame.tile_origin;
-    let place = capsule_place(p_px, in.ends.xy, in.ends.zw, in.shape.x, in.shape.y);
-    let coverage = line_coverage(place.distance, place.radius);
-    let depth = textureLoad(depths, vec2i(in.clip.xy), 0).x;
-    let line_depth = mix(in.shape.z, in.shape.w, place.t);
-    if (coverage <= 0.0 || behind_in_pixels(frame, line_depth, depth) > ON_SURFACE) {
+fn speed_line_depth_fragment(in: Stroke) -> @builtin(frag_depth) f32 {
+    let ink = ink_at(in);
+    if (ink.x <= 0.0) {
         discard;
     }
-    return vec4f(vec4u(in.line_set) == vec4u(0u, 1u, 2u, 3u)) * coverage;
+    return depth_from_line(frame, ink.y);
+}
+
+@fragment
+fn speed_line_fragment(in: Stroke) -> @location(0) vec4f {
+    let ink = ink_at(in);
+    if (ink.x <= 0.0) {
+        discard;
+    }
+    return vec4f(vec4u(in.line_set) == vec4u(0u, 1u, 2u, 3u)) * ink.x;
 }
 
 @vertex

@@ -301,6 +301,12 @@ fn curve_at(line_set: u32, curve: u32, x: f32) -> f32 {
     return before.y;
 }
 
+fn depth_from_line(frame: Frame, line_depth: f32) -> f32 {
+    let range = frame.depth_range;
+    let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
+    return saturate(select(range.x * line_depth, (range.y - line_depth) / max(range.y - range.x, 1e-30), is_ortho));
+}
+
 fn ending(end: u32) -> Ending {
     let rank = ranks[end];
     let last = rank.x;
@@ -587,9 +593,7 @@ fn stroke_color_fragment(in: Stroke) -> Colored {
         discard;
     }
     let color = mix(unpack4x8unorm(in.what.z), unpack4x8unorm(in.what.w), ink.t);
-    let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
-    let nearness = select(frame.depth_range.x * ink.depth, (frame.depth_range.y - ink.depth) / max(frame.depth_range.y - frame.depth_range.x, 1e-30), is_ortho);
-    return Colored(color, saturate(nearness));
+    return Colored(color, depth_from_line(frame, ink.depth));
 }
 
 @fragment

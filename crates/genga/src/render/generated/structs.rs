@@ -75,9 +75,9 @@ pub(crate) struct Deform {
     pub(crate) smear_noise: f32,
     pub(crate) smear_spacing: f32,
     pub(crate) smear_seed: u32,
+    pub(crate) past_weights: u32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
     std::mem::size_of::< Deform > () == 64, "size of Deform does not match WGSL"
@@ -135,16 +135,16 @@ const _: () = assert!(
     "offset of Deform.smear_seed does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Deform, reserved_0) == 52,
+    std::mem::offset_of!(Deform, past_weights) == 52,
+    "offset of Deform.past_weights does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Deform, reserved_0) == 56,
     "offset of Deform.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Deform, reserved_1) == 56,
+    std::mem::offset_of!(Deform, reserved_1) == 60,
     "offset of Deform.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Deform, reserved_2) == 60,
-    "offset of Deform.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -799,9 +799,10 @@ pub(crate) struct Light {
     pub(crate) shadow_first: u32,
     pub(crate) shadow_maps: u32,
     pub(crate) reserved_0: u32,
+    pub(crate) color: glam::Vec4,
 }
 const _: () = assert!(
-    std::mem::size_of::< Light > () == 64, "size of Light does not match WGSL"
+    std::mem::size_of::< Light > () == 80, "size of Light does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Light, position) == 0,
@@ -829,6 +830,9 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Light, reserved_0) == 60,
     "offset of Light.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Light, color) == 64, "offset of Light.color does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
@@ -1509,9 +1513,13 @@ pub(crate) struct Shading {
     pub(crate) normals_y: glam::Vec4,
     pub(crate) normals_z: glam::Vec4,
     pub(crate) face: glam::Vec4,
+    pub(crate) normal_map: i32,
+    pub(crate) reserved_0: u32,
+    pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Shading > () == 96, "size of Shading does not match WGSL"
+    std::mem::size_of::< Shading > () == 112, "size of Shading does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Shading, center) == 0,
@@ -1544,6 +1552,22 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(Shading, face) == 80,
     "offset of Shading.face does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, normal_map) == 96,
+    "offset of Shading.normal_map does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_0) == 100,
+    "offset of Shading.reserved_0 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_1) == 104,
+    "offset of Shading.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Shading, reserved_2) == 108,
+    "offset of Shading.reserved_2 does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -202,7 +202,8 @@ struct Light {
     kind: u32,
     shadow_first: u32,
     shadow_maps: u32,
-    reserved_0: u32
+    reserved_0: u32,
+    color: vec4f
 }
 
 struct LightTerm {

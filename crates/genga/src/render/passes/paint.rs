@@ -92,8 +92,9 @@ impl PaintPass {
             PaintOutput::All | PaintOutput::Highlights => features,
             _ => features.without_shine(),
         };
-        let lights =
-            (light_count(&prepared.lights) + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
+        let own = light_count(&prepared.lights);
+        let lights = (own + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
+        let beam_lights = lights - own as u32;
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -108,6 +109,7 @@ impl PaintPass {
                 PaintOutput::Ink => 6,
             };
             let edited_shading = prepared.shadings.any();
+            let proxy_meshes = prepared.shadings.has_meshes();
             Variant {
                 highlights,
                 hatch,
@@ -115,7 +117,9 @@ impl PaintPass {
                 output,
                 features,
                 edited_shading,
+                proxy_meshes,
                 lights,
+                beam_lights,
                 ..Variant::of(item, samples)
             }
         };

@@ -1,15 +1,23 @@
 //! Strokes behind what is fast → coverage of their line set.
 
-use super::{strokes::coverage_pipeline, surface::shader};
+use std::sync::OnceLock;
+
+use super::{
+    strokes::{coverage_pipeline, depth_pipeline},
+    surface::shader,
+};
 use crate::render::gpu::{
     bindings::{Binding as B, group, layout},
     timing::Timer,
 };
-use crate::render::{prepare::Prepared, targets::Targets};
+use crate::render::{frame::needs_line_depths, prepare::Prepared, targets::Targets};
 
 pub(crate) struct SpeedLinePass {
     layout: wgpu::BindGroupLayout,
+    module: wgpu::ShaderModule,
     pipeline: wgpu::RenderPipeline,
+    /// Writes the strokes' depths, for beams.
+    depths: OnceLock<wgpu::RenderPipeline>,
 }
 
 impl SpeedLinePass {
@@ -20,10 +28,10 @@ impl SpeedLinePass {
         let module = shader(device, "speed lines", include_str!("../generated/speed_lines.wgsl"));
         let entries = ["speed_line_vertex", "speed_line_fragment"];
         let pipeline = coverage_pipeline(device, "speed lines", &[&layout], &module, entries);
-        Self { layout, pipeline }
+        Self { layout, module, pipeline, depths: OnceLock::new() }
     }
 
-    /// Draws over the coverage that is there.
+    /// Draws over the coverage that is there, and over the depths of strokes if beams need them.
     pub(crate) fn run(
         &self,
         device: &wgpu::Device,
@@ -55,6 +63,29 @@ impl SpeedLinePass {
             ..Default::default()
         });
         pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..6 * prepared.speed_lines.count, 0..1);
+        drop(pass);
+        let line_colors = targets.line_colors.as_ref().filter(|_| needs_line_depths(prepared));
+        let Some([_, depth]) = line_colors else { return };
+        let pipeline = self.depths.get_or_init(|| {
+            let entries = ["speed_line_vertex", "speed_line_depth_fragment"];
+            depth_pipeline(device, "depths of speed lines", &[&self.layout], &self.module, entries)
+        });
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("depths of speed lines"),
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &depth.view,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Load,
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: timer.render("depths of speed lines"),
+            ..Default::default()
+        });
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..6 * prepared.speed_lines.count, 0..1);
     }

@@ -91,11 +91,33 @@ fn color_pipeline(
     device: &wgpu::Device,
     groups: &[&wgpu::BindGroupLayout],
     module: &wgpu::ShaderModule,
+    entries: [&str; 2],
+) -> wgpu::RenderPipeline {
+    let targets = [Some(LINE_COLOR_FORMAT.into())];
+    nearest_pipeline(device, "line colours", (groups, &targets), module, entries)
+}
+
+/// A pipeline without vertex buffers that writes the depth of what is nearest.
+pub(crate) fn depth_pipeline(
+    device: &wgpu::Device,
+    label: &str,
+    groups: &[&wgpu::BindGroupLayout],
+    module: &wgpu::ShaderModule,
+    entries: [&str; 2],
+) -> wgpu::RenderPipeline {
+    nearest_pipeline(device, label, (groups, &[]), module, entries)
+}
+
+fn nearest_pipeline(
+    device: &wgpu::Device,
+    label: &str,
+    (groups, targets): (&[&wgpu::BindGroupLayout], &[Option<wgpu::ColorTargetState>]),
+    module: &wgpu::ShaderModule,
     [vertex, fragment]: [&str; 2],
 ) -> wgpu::RenderPipeline {
-    let layout = pipeline_layout(device, "line colours", groups);
+    let layout = pipeline_layout(device, label, groups);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("line colours"),
+        label: Some(label),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module,
@@ -116,7 +138,7 @@ fn color_pipeline(
             module,
             entry_point: Some(fragment),
             compilation_options: Default::default(),
-            targets: &[Some(LINE_COLOR_FORMAT.into())],
+            targets,
         }),
         multiview_mask: None,
         cache: None,

@@ -35,9 +35,13 @@ pub(crate) struct Variant {
     pub(crate) features: Features,
     /// With other normals for shading.
     pub(crate) edited_shading: bool,
+    /// Some of them those of meshes.
+    pub(crate) proxy_meshes: bool,
     pub(crate) material: MaterialVariant,
     /// How many lights there are; only paint has a loop over so many.
     pub(crate) lights: u32,
+    /// How many of these, the last ones, are beams'.
+    pub(crate) beam_lights: u32,
 }
 
 /// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
@@ -110,8 +114,10 @@ impl Variant {
             hatch: None,
             features: Features::default(),
             edited_shading: false,
+            proxy_meshes: false,
             material: item.look,
             lights: 0,
+            beam_lights: 0,
         }
     }
 }
@@ -211,6 +217,7 @@ impl SurfacePipelines {
             ("EDITED_SHADING", yes(variant.edited_shading)),
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),
             ("LIGHTS", f64::from(variant.lights)),
+            ("BEAM_LIGHTS", f64::from(variant.beam_lights)),
         ];
         let hatch_constants = [
             ("HATCH_HAS_STROKES", yes(hatch.has_strokes)),
@@ -259,10 +266,10 @@ impl SurfacePipelines {
                 module: &self.module,
                 entry_point: Some(vertex_entry),
                 compilation_options: wgpu::PipelineCompilationOptions {
-                    constants: if variant.edited_shading {
-                        &[("EDITED_SHADING", 1.0)]
-                    } else {
-                        &[]
+                    constants: match (variant.edited_shading, variant.proxy_meshes) {
+                        (true, true) => &[("EDITED_SHADING", 1.0), ("PROXY_MESHES", 1.0)],
+                        (true, false) => &[("EDITED_SHADING", 1.0)],
+                        _ => &[],
                     },
                     ..Default::default()
                 },

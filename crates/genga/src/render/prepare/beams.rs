@@ -121,7 +121,7 @@ impl BeamData {
                 index_count: mesh.indices.len() as u32,
                 center: mesh.positions.iter().map(|p| *p / count).sum(),
             });
-            self.lights.extend(light_of(beam, pose));
+            self.lights.extend(light_of(beam, pose, blend));
         }
         let fill = |buffer: &mut wgpu::Buffer, label, usage, bytes: &[u8]| {
             if buffer.size() < bytes.len() as u64 {
@@ -184,8 +184,11 @@ fn beam_values(beam: &Beam, blend: BlendSpace) -> gpu::Beam {
     values
 }
 
+/// Its light's shadows go in all directions.
+pub(crate) const BEAM_SHADOW_MAPS: u32 = 6;
+
 /// A line of light from a beam's beginning to its end.
-fn light_of(beam: &Beam, pose: &Pose) -> Option<Light> {
+fn light_of(beam: &Beam, pose: &Pose, blend: BlendSpace) -> Option<Light> {
     let light = beam.light.filter(|light| light.intensity > 0.0)?;
     let path = beam.path(pose);
     let (first, last) = (*path.first()?, *path.last()?);
@@ -193,6 +196,7 @@ fn light_of(beam: &Beam, pose: &Pose) -> Option<Light> {
     if !(first.is_finite() && last.is_finite()) {
         return None;
     }
+    let [r, g, b] = beam.light_color().to_array();
     Some(Light {
         position: first.extend(1.0),
         direction: (last - first).extend(0.0),
@@ -204,7 +208,8 @@ fn light_of(beam: &Beam, pose: &Pose) -> Option<Light> {
         ),
         kind: gpu::LIGHT_BEAM,
         shadow_first: 0,
-        shadow_maps: 0,
+        shadow_maps: if light.casts_shadow { BEAM_SHADOW_MAPS } else { 0 },
         reserved_0: 0,
+        color: in_blend_space(Color { r, g, b, a: 1.0 }, blend),
     })
 }

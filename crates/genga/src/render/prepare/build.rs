@@ -16,6 +16,7 @@ use super::{
     pages::{PAGE_BYTES, Place},
     shading::{Shadings, shading_of},
     shadows::{self, Shadows},
+    smears,
     speed_lines::SpeedLineData,
     stipple,
     strokes::{self, StrokeData},
@@ -103,7 +104,9 @@ impl<'a> Builder<'a> {
         for index in (0..self.scene.nodes.len()).filter(|&i| pose.visible[i]) {
             self.add_node(index);
         }
-        self.add_smears();
+        let counts = [self.matrix_count, self.weight_count];
+        let deforms = self.deforms.iter_mut().map(|(deform, _)| deform).zip(&self.draws);
+        smears::add(self.scene, self.style, deforms, counts);
         self.finish(&pose)
     }
 
@@ -307,31 +310,6 @@ impl<'a> Builder<'a> {
         self.materials.len() - 1
     }
 
-    /// What the deformation must know of smears.
-    fn add_smears(&mut self) {
-        let motion = &self.style.motion;
-        let Some(smear) = motion.smear.as_ref().filter(|_| motion.is_drawn()) else { return };
-        let rest = Pose::rest(self.scene);
-        for ((deform, _), item) in self.deforms.iter_mut().zip(&self.draws) {
-            let [node, primitive] = item.surface;
-            let object = &self.scene.nodes[node];
-            let mesh = object.mesh.and_then(|mesh| self.scene.meshes.get(mesh));
-            let material = mesh.and_then(|mesh| mesh.primitives[primitive].material);
-            let material = material.map_or("", |m| self.scene.materials[m].name.as_str());
-            if !(smear.objects.matches(&object.name) && smear.materials.matches(material)) {
-                continue;
-            }
-            let matrix = rest.world_from_node[node].matrix3;
-            let metres = matrix.determinant().abs().max(1e-30).cbrt();
-            deform.past_offset = self.matrix_count;
-            deform.smear = smear.amount;
-            deform.smear_from = smear.threshold * motion.shutter_s();
-            deform.smear_noise = smear.noise;
-            deform.smear_spacing = smear.spacing / metres;
-            deform.smear_seed = smear.seed;
-        }
-    }
-
     fn world_place(&mut self, vertex_count: u32) -> Place {
         let capacity = (PAGE_BYTES / size_of::<WorldVertex>()) as u32;
         let fits = self.world_pages.last().is_some_and(|&used| used + vertex_count <= capacity);
@@ -387,6 +365,7 @@ impl<'a> Builder<'a> {
                 (9, shadings.values.as_entire_binding()),
                 (10, dynamic_binding::<gpu::DrawNumber>(&numbers)),
                 (11, wgpu::BindingResource::TextureView(&stipple)),
+                (12, wgpu::BindingResource::TextureView(&shadings.normal_maps)),
             ],
         );
         let deform = self.deform_data(&geometry);
@@ -499,7 +478,8 @@ impl<'a> Builder<'a> {
             stored,
             matrices.as_flattened(),
         );
-        let weights = vec![0.0_f32; self.weight_count.max(1) as usize];
+        let count = self.weight_count.max(1) as usize * if has_smear { 2 } else { 1 };
+        let weights = vec![0.0_f32; count];
         let weights = bindings::buffer(self.device, self.queue, "morph weights", stored, &weights);
         let mut groups = HashMap::new();
         for (_, pages) in &self.deforms {

@@ -131,9 +131,7 @@ impl Highlights {
             layered(device, queue, FIELD_SIZE, wgpu::TextureFormat::R32Uint, fields.collect());
         let masks = masks.iter().map(|mask| mask_texels(mask)).collect();
         let masks = layered(device, queue, MASK_SIZE, wgpu::TextureFormat::R8Unorm, masks);
-        let side = NORMAL_MAP_SIZE + 2;
-        let maps = maps.iter().map(|proxy| normal_texels(proxy)).collect();
-        let maps = layered(device, queue, side, wgpu::TextureFormat::Rgba16Float, maps);
+        let maps = normal_maps(device, queue, &maps);
         let uniform = wgpu::BufferUsages::UNIFORM;
         let bytes = vec![0_u8; STRIDE * sets.len()];
         let blocks = bindings::buffer(device, queue, "highlights", uniform, &bytes);
@@ -367,7 +365,7 @@ fn rows(m: Mat3) -> [Vec3; 3] {
 }
 
 /// The number of an item in a list without doubles.
-fn layer_of<'a, T: PartialEq>(known: &mut Vec<&'a T>, item: &'a T) -> usize {
+pub(super) fn layer_of<'a, T: PartialEq>(known: &mut Vec<&'a T>, item: &'a T) -> usize {
     known.iter().position(|other| **other == *item).unwrap_or_else(|| {
         known.push(item);
         known.len() - 1
@@ -419,6 +417,17 @@ fn mask_texels(mask: &Image) -> Vec<u8> {
             (sum / count).round() as u8
         })
         .collect()
+}
+
+/// The normals of meshes by direction, a layer each.
+pub(super) fn normal_maps(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    meshes: &[&Proxy],
+) -> wgpu::TextureView {
+    let side = NORMAL_MAP_SIZE + 2;
+    let maps = meshes.iter().map(|proxy| normal_texels(proxy)).collect();
+    layered(device, queue, side, wgpu::TextureFormat::Rgba16Float, maps)
 }
 
 fn normal_texels(proxy: &Proxy) -> Vec<u8> {

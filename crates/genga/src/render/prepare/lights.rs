@@ -104,6 +104,7 @@ pub(crate) fn lights_in_view(
                 shadow_first: 0,
                 shadow_maps: if light.casts_shadow { shadow_maps(light.kind) } else { 0 },
                 reserved_0: 0,
+                color: Vec4::ONE,
             }
         }))
         .collect()
@@ -137,5 +138,6 @@ fn style_light(style: &StyleLight, weight: f32, world_from_camera: &Affine3A) ->
         shadow_first: 0,
         shadow_maps: shadow_maps(LightKind::Directional),
         reserved_0: 0,
+        color: Vec4::ONE,
     }
 }

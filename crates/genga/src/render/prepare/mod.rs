@@ -13,6 +13,7 @@ pub(crate) mod pages;
 pub(crate) mod shading;
 pub(crate) mod shadows;
 pub(crate) mod shine;
+mod smears;
 pub(crate) mod speed_lines;
 mod stipple;
 pub(crate) mod strokes;
@@ -111,7 +112,7 @@ pub(crate) struct DeformData {
     pub(crate) uniforms: wgpu::BindGroup,
     nodes: Vec<NodeDeform>,
     matrix_count: usize,
-    /// Whether the matrices of the past follow, by which what trails is smeared.
+    /// Whether the matrices and weights of the past follow, by which what trails is smeared.
     pub(crate) has_smear: bool,
     weight_count: usize,
 }
@@ -177,6 +178,19 @@ impl Prepared {
         matrices
     }
 
+    /// Weights of all morph targets.
+    fn weights(&self, pose: &Pose) -> Vec<f32> {
+        let mut weights = vec![0.0_f32; self.deform.weight_count];
+        for deform in &self.deform.nodes {
+            let (first, count) = (deform.weight_first as usize, deform.weight_count as usize);
+            let posed = &pose.morph_weights[deform.node];
+            for (slot, weight) in weights[first..first + count].iter_mut().zip(posed) {
+                *slot = if weight.is_finite() { *weight } else { 0.0 };
+            }
+        }
+        weights
+    }
+
     /// Brings the scene to a pose, with the poses before it for speed lines and smears: matrices, weights, lights, waves. The caller then runs `deform`.
     pub(crate) fn write_pose(
         &mut self,
@@ -190,17 +204,13 @@ impl Prepared {
         let motion = (pose, past);
         self.speed_lines.write(device, queue, scene, motion, self.style.motion.shutter_s());
         let mut matrices = self.matrices(scene, pose);
-        let mut weights = vec![0.0_f32; self.deform.weight_count.max(1)];
-        for deform in &self.deform.nodes {
-            let (first, count) = (deform.weight_first as usize, deform.weight_count as usize);
-            let posed = &pose.morph_weights[deform.node];
-            for (slot, weight) in weights[first..first + count].iter_mut().zip(posed) {
-                *slot = if weight.is_finite() { *weight } else { 0.0 };
-            }
-        }
+        let mut weights = self.weights(pose);
         if self.deform.has_smear {
-            matrices.extend(self.matrices(scene, past.last().unwrap_or(pose)));
+            let opened = past.last().unwrap_or(pose);
+            matrices.extend(self.matrices(scene, opened));
+            weights.extend(self.weights(opened));
         }
+        weights.resize(weights.len().max(1), 0.0);
         let rows: Vec<[Vec4; 3]> = matrices
             .iter()
             .map(|m| {

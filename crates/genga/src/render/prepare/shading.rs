@@ -4,17 +4,21 @@ use std::sync::Arc;
 
 use glam::{Affine3A, Mat3, Vec3, Vec4};
 
+use super::highlights::{layer_of, normal_maps};
 use crate::render::{
     generated::{self as gpu, LIGHT_DIRECTIONAL, LIGHT_SKY, Light},
     gpu::bindings,
 };
-use crate::scene::{Image, MAX_SHADINGS, Pose, ProxyShape, Scene, Shading};
+use crate::scene::{Image, MAX_SHADINGS, Pose, Proxy, ProxyShape, Scene, Shading};
 
 /// The shadings of a prepared scene.
 pub(crate) struct Shadings {
     items: Vec<Shading>,
     world_from_node: Vec<Affine3A>,
     pub(crate) values: wgpu::Buffer,
+    /// Normals of the meshes among the proxies, and which layer each shading has.
+    pub(crate) normal_maps: wgpu::TextureView,
+    layers: Vec<i32>,
 }
 
 /// The last shading that fits a surface, numbered from 0.
@@ -45,8 +49,19 @@ impl Shadings {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Self {
         let none: gpu::Shading = bytemuck::Zeroable::zeroed();
         let usage = wgpu::BufferUsages::UNIFORM;
+        let items: Vec<Shading> = scene.shadings.iter().take(MAX_SHADINGS).cloned().collect();
+        let mut maps = Vec::new();
+        let layer = |item| match item {
+            &Shading { proxy: Some(ref proxy @ Proxy::Mesh { .. }), .. } => {
+                layer_of(&mut maps, proxy) as i32
+            }
+            _ => -1,
+        };
+        let layers = items.iter().map(layer).collect();
         Self {
-            items: scene.shadings.iter().take(MAX_SHADINGS).cloned().collect(),
+            normal_maps: normal_maps(device, queue, &maps),
+            layers,
+            items,
             world_from_node: vec![Affine3A::IDENTITY; scene.shadings.len().min(MAX_SHADINGS)],
             values: bindings::buffer(device, queue, "shadings", usage, &[none; MAX_SHADINGS]),
         }
@@ -55,6 +70,11 @@ impl Shadings {
     /// Whether there are any.
     pub(crate) fn any(&self) -> bool {
         !self.items.is_empty()
+    }
+
+    /// Whether meshes are among the proxies.
+    pub(crate) fn has_meshes(&self) -> bool {
+        self.layers.iter().any(|&layer| layer >= 0)
     }
 
     /// The face shadow's picture of a shading.
@@ -76,7 +96,11 @@ impl Shadings {
             .items
             .iter()
             .zip(&self.world_from_node)
-            .map(|(item, world_from_node)| values_of(item, world_from_node, lights.first()))
+            .zip(&self.layers)
+            .map(|((item, world_from_node), &normal_map)| gpu::Shading {
+                normal_map,
+                ..values_of(item, world_from_node, lights.first())
+            })
             .collect();
         queue.write_buffer(&self.values, 0, bytemuck::cast_slice(&values));
     }

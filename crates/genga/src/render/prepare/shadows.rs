@@ -1,11 +1,11 @@
 //! Shadow maps: which light has which, and where they look.
 
-use glam::{Affine3A, DMat4, DVec2, DVec3, DVec4, Mat4};
+use glam::{Affine3A, DMat4, DVec2, DVec3, DVec4, Mat4, Vec3};
 
-use super::Prepared;
+use super::{Prepared, beams::BEAM_SHADOW_MAPS};
 use crate::render::{
     View,
-    generated::{LIGHT_DIRECTIONAL, LIGHT_SPOT, Light, ShadowMap},
+    generated::{LIGHT_BEAM, LIGHT_DIRECTIONAL, LIGHT_SPOT, Light, ShadowMap},
     gpu::bindings,
     layouts::Layouts,
     targets::DEPTH_FORMAT,
@@ -154,7 +154,7 @@ impl Shadows {
                     // Of the size of a pixel where the scene is.
                     let center = 0.5 * (bounds.min + bounds.max);
                     let pixel = projected.pixel_at(center) / view.supersample.max(1) as f32;
-                    let away = light.position.truncate().distance(center);
+                    let away = lamp(light).distance(center);
                     let is_cone = kind == LIGHT_SPOT && count == 1;
                     let tangent = if is_cone { outer_angle(light).tan() as f32 } else { 1.0 };
                     let wanted = 2.0 * tangent * away / pixel.max(1e-12);
@@ -184,6 +184,12 @@ fn used_texels(view: &View) -> u32 {
     longest.next_power_of_two().max(256)
 }
 
+/// Where the rays of a light come from; those of a beam's light as if all did from its middle.
+fn lamp(light: &Light) -> Vec3 {
+    let along = if light.kind == LIGHT_BEAM { 0.5 } else { 0.0 };
+    (light.position + along * light.direction).truncate()
+}
+
 /// Half angle of a spot's cone in radians.
 fn outer_angle(light: &Light) -> f64 {
     f64::from(light.factors.w).clamp(-1.0, 1.0).acos()
@@ -199,7 +205,9 @@ pub(crate) fn maps_needed(scene: &Scene, pose: &Pose, style: &Style) -> [usize; 
     let lights = super::lights::lights_in_view(&placed, &style.light, &Affine3A::IDENTITY);
     let parallel =
         lights.iter().filter(|l| l.kind == LIGHT_DIRECTIONAL && l.shadow_maps > 0).count();
-    [lights.iter().map(|light| light.shadow_maps as usize).sum(), parallel]
+    let beams = scene.beams.iter().filter(|b| b.light.is_some_and(|light| light.casts_shadow));
+    let of_lights: usize = lights.iter().map(|light| light.shadow_maps as usize).sum();
+    [of_lights + beams.count() * BEAM_SHADOW_MAPS as usize, parallel]
 }
 
 /// Depths between which each cascade lies, from near to far: at most `most`, and one where the scene is
@@ -297,7 +305,7 @@ fn perspective(
     bounds: &Aabb,
     texels: u32,
 ) -> ShadowMap {
-    let at = light.position.truncate().as_dvec3();
+    let at = lamp(light).as_dvec3();
     let farthest = corners(bounds).iter().map(|p| p.distance(at)).fold(0.0, f64::max);
     let near = (1e-4 * farthest).max(1e-9);
     // The border lies outside of the cone.
