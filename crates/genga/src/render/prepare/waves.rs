@@ -34,8 +34,8 @@ pub(crate) struct WaveData {
     fades: bool,
     /// Some wave is hidden by what is before it.
     occluded: bool,
-    /// For each wave: a sphere round all its glow in the world, and its ε.
-    spheres: Vec<(Vec3, f32, f32)>,
+    /// For each wave: a sphere round all its glow in the world, its ε and its R.
+    spheres: Vec<(Vec3, f32, [f32; 2])>,
 }
 
 /// What the composite is made for.
@@ -62,6 +62,8 @@ pub(crate) struct ExactKind {
     pub(crate) fades: bool,
     /// Some soft core is less than half a pixel somewhere.
     pub(crate) core_grows: bool,
+    /// Some grows to more than a small part of its wave's radius.
+    pub(crate) rim_grows: bool,
     /// Surfaces hide some of the waves.
     pub(crate) hides: bool,
     /// The energy itself is wanted.
@@ -77,13 +79,14 @@ impl WaveData {
         (has_surfaces, keeps_energy): (bool, bool),
     ) -> ExactKind {
         let eye = Vec3::from(view.camera.world_from_camera.translation);
-        let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
+        let half_pixel = |middle: Vec3, radius| {
             let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
-            core < 0.5 * projected.pixel_footprint * distance
+            0.5 * projected.pixel_footprint * distance
         };
         ExactKind {
             fades: self.fades,
-            core_grows: self.spheres.iter().any(grows),
+            core_grows: self.spheres.iter().any(|&(p, r, [core, _])| core < half_pixel(p, r)),
+            rim_grows: self.spheres.iter().any(|&(p, r, [_, rim])| 0.05 * rim < half_pixel(p, r)),
             hides: has_surfaces && self.occluded,
             keeps_energy,
         }
@@ -427,13 +430,13 @@ fn bound(curve: &WaveCurve<'_>, bounds: &[f64], samples: &[DVec3]) -> Vec4 {
     (0.5 * (low + high)).as_vec3().extend(radius as f32)
 }
 
-/// A sphere round all that glows, in the world, and ε.
-fn sphere(wave: &GpuWave) -> (Vec3, f32, f32) {
+/// A sphere round all that glows, in the world, ε and R.
+fn sphere(wave: &GpuWave) -> (Vec3, f32, [f32; 2]) {
     let local = wave.bound;
     let axes = [wave.axis_x, wave.axis_y, wave.axis_z].map(Vec4::truncate);
     let middle = wave.origin.truncate() + axes[0] * local.x + axes[1] * local.y + axes[2] * local.z;
     let glow = if wave.radius > 0.0 { wave.radius } else { wave.origin.w };
-    (middle, local.w + glow, wave.core)
+    (middle, local.w + glow, [wave.core, if wave.radius > 0.0 { wave.radius } else { f32::MAX }])
 }
 
 /// Radius about the middle of the bound, parallel to x, that holds the curve.
