@@ -26,3 +26,4 @@ mod snapshots;
 mod stipple;
 mod transparency;
 mod waves;
+mod waves_in_scenes;

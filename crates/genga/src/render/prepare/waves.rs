@@ -41,17 +41,22 @@ pub(crate) struct WaveData {
 /// What the composite is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GlowKind {
-    /// There are waves.
-    pub(crate) shows: bool,
-    /// Some wave's blend space is not the style's.
+    pub(crate) layers: u32,
+    /// Some wave is added in another space than the style's.
     pub(crate) mixes: bool,
+    /// Some wave covers what is behind it.
+    pub(crate) covers: bool,
 }
 
 impl WaveData {
     pub(crate) fn glow_kind(&self, style: &Style) -> GlowKind {
         let is_linear = style.paint.blend_space == BlendSpace::Linear;
-        let is_other = |(_, blend): &(_, WaveBlend)| (*blend == WaveBlend::Linear) != is_linear;
-        GlowKind { shows: !self.layers.is_empty(), mixes: self.layers.iter().any(is_other) }
+        let has = |blend| self.layers.iter().any(|layer| layer.1 == blend);
+        GlowKind {
+            layers: self.layers.len() as u32,
+            mixes: has(if is_linear { WaveBlend::Display } else { WaveBlend::Linear }),
+            covers: has(WaveBlend::Normal),
+        }
     }
 }
 
@@ -243,9 +248,13 @@ impl WaveData {
                 WaveOrder::LinesThrough => gpu::GLOW_LINES_THROUGH,
                 WaveOrder::Over => gpu::GLOW_OVER,
             };
-            slot.y = u32::from(*blend == WaveBlend::Linear);
+            slot.y = match blend {
+                WaveBlend::Display => gpu::GLOW_ADDS,
+                WaveBlend::Linear => gpu::GLOW_ADDS_LINEAR,
+                WaveBlend::Normal => gpu::GLOW_COVERS,
+            };
+            slot.z = 1;
         }
-        glow.layer_count = self.layers.len() as u32;
         glow.dithered = u32::from(output.dithered);
         glow
     }
@@ -457,7 +466,7 @@ fn is_even(curve: &WaveCurve<'_>) -> bool {
 /// A colour as it is added: premultiplied, in the wave's blend space.
 fn added_color(color: Vec4, blend: WaveBlend) -> Vec4 {
     let rgb = match blend {
-        WaveBlend::Display => color.truncate(),
+        WaveBlend::Display | WaveBlend::Normal => color.truncate(),
         WaveBlend::Linear => color.truncate().map(linear_from_srgb),
     };
     (rgb * color.w).extend(color.w)
