@@ -27,7 +27,7 @@ const PATCH_NODES: u32 = 16u;
 
 const PATCH_RAYS: u32 = 24u;
 
-const SHARE: f32 = 0.5;
+const SHARE: f32 = 0.3;
 
 const UNSEEN: f32 = 0.1 / 255.0;
 
