@@ -54,11 +54,11 @@ const NODE_TOO_COARSE: u32 = 2u;
 
 const PATCH_RAYS: u32 = 24u;
 
-const PIXELS_OF_GROUP: u32 = 2u;
+const PIXELS_OF_GROUP: u32 = 1u;
 
 const ROUGH: f32 = 0.15;
 
-const SAG: f32 = 0.14;
+const SAG: f32 = 0.17;
 
 const WAVE_ENDS: u32 = 1u;
 
@@ -618,7 +618,7 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let cuts = cuts_of(wave, bend, reaches, d, d / max(speed, 0.001)).count;
     let is_cut = surface - ray.middle < high;
     let strict = select(1.0, 0.05, is_cut);
-    let fits = error <= strict * wave.tolerance * max(0.15 * share, 0.012) && cuts <= MANY_CUTS;
+    let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
     let is_rough = is_cut || d < ROUGH * (base + spread.y * nearest);
     let width = 2.0 * (a + b * nearest);
     let part = width / max(radius, 1e-20);

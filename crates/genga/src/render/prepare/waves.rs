@@ -283,7 +283,7 @@ impl Packer {
         let bounds: Vec<f64> = match wave.shape {
             WaveShape::Sphere => Vec::new(),
             WaveShape::Cylinder { length: None } => vec![0.0, 1.0],
-            _ => curve.values_of_s(0.1 * f64::from(wave.tolerance) * core),
+            _ => curve.values_of_s(0.5 * f64::from(wave.tolerance) * core),
         };
         let pieces = bounds.len().saturating_sub(1) as u32;
         let leaves = if pieces == 0 { 0 } else { pieces.next_power_of_two() };
