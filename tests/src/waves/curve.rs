@@ -1,11 +1,12 @@
 //! The curves as Abe 2024 prints them (3.25 to 3.34), in f64.
 
-use genga::scene::{Wave, WaveShape};
+use genga::scene::{Wave, WaveNoise, WaveShape};
 use glam::{DMat3, DQuat, DVec3};
 
 /// A curve in a frame whose x axis is its main direction.
 pub(super) struct Curve {
     shape: WaveShape,
+    noise: WaveNoise,
     points: Vec<DVec3>,
     knots: Vec<f64>,
     pub(super) shape_from_curve: DMat3,
@@ -19,12 +20,12 @@ impl Curve {
     pub(super) fn new(wave: &Wave) -> Self {
         let mut curve = Self {
             shape: wave.shape.clone(),
+            noise: wave.noise,
             points: Vec::new(),
             knots: Vec::new(),
             shape_from_curve: DMat3::IDENTITY,
             table: Vec::new(),
         };
-        assert!(wave.noise.amplitude == 0.0, "the reference has no noise");
         if let WaveShape::Bezier { points }
         | WaveShape::BSpline { points, .. }
         | WaveShape::Polyline { points } = &wave.shape
@@ -51,7 +52,35 @@ impl Curve {
         curve
     }
 
+    /// With noise: values of a lattice, blended by Perlin's polynomial of degree 5, an octave half as
+    /// high and twice as fast as the one before, none at the ends.
     pub(super) fn at(&self, s: f64) -> DVec3 {
+        let noise = &self.noise;
+        let mut p = self.smooth_at(s);
+        if noise.amplitude == 0.0 {
+            return p;
+        }
+        let fade = f64::from(noise.amplitude) * (1.0 - (2.0 * s.clamp(0.0, 1.0) - 1.0).powi(4));
+        for octave in 0..noise.octaves.max(1) {
+            let scale = 0.5_f64.powi(octave as i32);
+            let at = (f64::from(noise.frequency) * s + f64::from(noise.phase)) / scale;
+            let (i, t) = (at.floor() as i64 as u32, at - at.floor());
+            let part = t * t * t * (10.0 - 15.0 * t + 6.0 * t * t);
+            let value = |axis: u32| {
+                let key =
+                    hash(noise.seed.wrapping_mul(0x9e37_79b9).wrapping_add(2 * octave + axis));
+                let at = |i: u32| {
+                    f64::from(hash(i.wrapping_add(key)) >> 8) * 2.0 / f64::from((1 << 24) - 1) - 1.0
+                };
+                (1.0 - part) * at(i) + part * at(i.wrapping_add(1))
+            };
+            p.y += fade * scale * value(0);
+            p.z += fade * scale * value(1);
+        }
+        p
+    }
+
+    fn smooth_at(&self, s: f64) -> DVec3 {
         let turn = std::f64::consts::TAU * s;
         match &self.shape {
             WaveShape::Sphere | WaveShape::Cylinder { length: None } => DVec3::ZERO,
@@ -163,4 +192,11 @@ impl Curve {
         }
         s
     }
+}
+
+/// PCG's output function.
+fn hash(n: u32) -> u32 {
+    let state = n.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
 }

@@ -28,3 +28,4 @@ mod snapshots;
 mod stipple;
 mod transparency;
 mod waves;
+mod waves_in_scenes;

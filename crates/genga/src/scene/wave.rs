@@ -50,7 +50,7 @@ pub struct Wave {
     pub occluded: bool,
     /// How it lies over surfaces and lines.
     pub order: WaveOrder,
-    /// Which values are added.
+    /// Whether it is added, or covers what is behind it.
     pub blend: WaveBlend,
     /// Displacement along the curve.
     pub noise: WaveNoise,
@@ -205,13 +205,16 @@ pub enum WaveOrder {
     Over,
 }
 
-/// Which values a wave's colour is added to.
+/// What a wave's colour does to what is behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum WaveBlend {
-    /// Displayed (sRGB-encoded) values.
+    /// It is added to displayed (sRGB-encoded) values.
     Display,
-    /// Linear light.
+    /// It is added in linear light.
     Linear,
+    /// It is laid over, as displayed, with the alpha of its brightest channel: a glow before a bright
+    /// sky keeps its colour. On black it looks as if it were added.
+    Normal,
 }
 
 /// Displacement across the curve, the same in every run. It is zero at the ends.

@@ -61,6 +61,18 @@ enum Order {
     Over,
 }
 
+/// How a wave is laid over what is behind it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+#[schemars(rename = "WaveBlend")]
+enum Blend {
+    /// It is added, so it shows best before what is dark.
+    #[default]
+    Add,
+    /// It covers what is behind it by its brightness, so it keeps its colour before a bright sky.
+    Normal,
+}
+
 /// Names of one or several nodes; the places of several are averaged.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(untagged)]
@@ -231,9 +243,11 @@ pub(super) struct Written {
     occluded: Option<bool>,
     /// How it lies over surfaces and lines; lines-through by default.
     order: Option<Order>,
-    /// Which values are added; display by default.
+    /// How it is laid over what is behind it; add by default.
     #[serde(default)]
-    blend_space: BlendSpace,
+    blend: Blend,
+    /// Which values are added; display by default.
+    blend_space: Option<BlendSpace>,
     /// Displacement along the curve.
     noise: Option<Noise>,
     /// How it moves.
@@ -290,6 +304,11 @@ impl TryFrom<Written> for WaveEntry {
         if w.unlimited && w.radius.is_some() {
             return Err("must have either a 'radius' or 'unlimited', not both".to_owned());
         }
+        if w.blend == Blend::Normal && w.blend_space.is_some() {
+            return Err(
+                "must have no 'blend_space' with the blend 'normal': nothing is added".to_owned()
+            );
+        }
         let placement = if is_between {
             let to = anchor(w.to.unwrap_or_default());
             WavePlacement::Between { from: anchor(w.from), to, roll: turn }
@@ -329,9 +348,10 @@ impl TryFrom<Written> for WaveEntry {
                 Some(Order::LinesThrough) | None => WaveOrder::LinesThrough,
                 Some(Order::Over) => WaveOrder::Over,
             },
-            blend: match w.blend_space {
-                BlendSpace::Display => WaveBlend::Display,
-                BlendSpace::Linear => WaveBlend::Linear,
+            blend: match (w.blend, w.blend_space.unwrap_or_default()) {
+                (Blend::Normal, _) => WaveBlend::Normal,
+                (Blend::Add, BlendSpace::Display) => WaveBlend::Display,
+                (Blend::Add, BlendSpace::Linear) => WaveBlend::Linear,
             },
             noise,
         };

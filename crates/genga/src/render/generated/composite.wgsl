@@ -48,6 +48,10 @@ const FRAME_SHOW_LINES: u32 = 32u;
 
 const FRAME_SHOW_PAINT: u32 = 16u;
 
+const GLOW_ADDS_LINEAR: u32 = 1u;
+
+const GLOW_COVERS: u32 = 2u;
+
 const GLOW_LINES_THROUGH: u32 = 1u;
 
 const GLOW_OVER: u32 = 2u;
@@ -74,7 +78,8 @@ const SET_COLOR_LIGHT: u32 = 4u;
 
 struct Added {
     own: vec3f,
-    other: vec3f
+    other: vec3f,
+    covering: vec3f
 }
 
 struct BeamPixel {
@@ -129,11 +134,11 @@ struct Frame {
 }
 
 struct Glow {
-    layers: array<vec4u, 6>,
-    layer_count: u32,
+    layers: array<vec4u, 9>,
     dithered: u32,
     reserved_0: u32,
-    reserved_1: u32
+    reserved_1: u32,
+    reserved_2: u32
 }
 
 struct LineSet {
@@ -156,6 +161,10 @@ struct LineSet {
 struct PaletteColor {
     color: vec4f,
     lab: vec4f
+}
+
+fn any_glow(added: Added) -> bool {
+    return any(added.own + added.other + added.covering > vec3f(0.0));
 }
 
 fn beams_at(frame: Frame, pixel: vec2i, scale: i32) -> BeamPixel {
@@ -193,6 +202,10 @@ fn beams_at(frame: Frame, pixel: vec2i, scale: i32) -> BeamPixel {
         result.line_is_before = nearest > 0.0 && distance < place.x / place.w * 1.001;
     }
     return result;
+}
+
+fn brightest(rgb: vec3f) -> f32 {
+    return max(rgb.r, max(rgb.g, rgb.b));
 }
 
 fn display_from_linear(c: vec3f) -> vec3f {
@@ -233,16 +246,19 @@ fn encoded(color: vec4f) -> vec4f {
 }
 
 fn glow_of(order: u32, pixel: vec2i, is_linear: bool) -> Added {
-    var added = Added(vec3f(0.0), vec3f(0.0));
+    var added = Added(vec3f(0.0), vec3f(0.0), vec3f(0.0));
     if (!has_glow) {
         return added;
     }
-    for (var i = 0u; i < glow.layer_count; i++) {
+    for (var i = 0u; i < glow_count; i++) {
+        let kind = glow.layers[i];
         let layer = textureLoad(glow_layers, pixel, i, 0).rgb;
-        let is_wanted = glow.layers[i].x == order;
-        let is_own = (glow.layers[i].y != 0u) == is_linear;
-        added.own += select(vec3f(0.0), layer, is_wanted && is_own);
-        added.other += select(vec3f(0.0), layer, is_wanted && !is_own);
+        let wanted = select(vec3f(0.0), layer, kind.x == order && kind.z != 0u);
+        let is_over = glow_covers && kind.y == GLOW_COVERS;
+        let is_own = (kind.y == GLOW_ADDS_LINEAR) == is_linear;
+        added.own += select(vec3f(0.0), wanted, is_own && !is_over);
+        added.other += select(vec3f(0.0), wanted, !is_own && !is_over);
+        added.covering += select(vec3f(0.0), wanted, is_over);
     }
     return added;
 }
@@ -321,9 +337,20 @@ fn paint_at(pixel: vec2i) -> vec4f {
     return sum / f32(PAINT_SCALE * PAINT_SCALE);
 }
 
-fn with_glow(added: Added, is_linear: bool, color: vec4f) -> vec4f {
+fn with_glow(added: Added, is_linear: bool, behind: vec4f) -> vec4f {
     if (!has_glow) {
-        return color;
+        return behind;
+    }
+    var color = behind;
+    if (glow_covers && any(added.covering > vec3f(0.0))) {
+        let rest = 1.0 - min(brightest(added.covering), 1.0);
+        if (is_linear) {
+            let shown = display_from_linear(color.rgb) * rest + added.covering;
+            color = vec4f(linear_from_display(shown), 1.0 - rest * (1.0 - color.a));
+        }
+        else {
+            color = vec4f(color.rgb * rest + added.covering, 1.0 - rest * (1.0 - color.a));
+        }
     }
     var rgb = color.rgb + added.own;
     if (glow_mixes && any(added.other > vec3f(0.0))) {
@@ -334,7 +361,7 @@ fn with_glow(added: Added, is_linear: bool, color: vec4f) -> vec4f {
             rgb = display_from_linear(linear_from_display(rgb) + added.other);
         }
     }
-    let alpha = max(color.a, max(rgb.r, max(rgb.g, rgb.b)));
+    let alpha = max(color.a, brightest(rgb));
     let glows = any(added.own + added.other > vec3f(0.0));
     return vec4f(rgb, select(color.a, min(alpha, 1.0), glows));
 }
@@ -405,9 +432,9 @@ fn composite_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f 
     color = with_glow(above, LINEAR_BLEND, color);
     let result = encoded(color);
     if (has_glow && glow.dithered != 0u) {
-        let sum = under.own + under.other + through.own + through.other + above.own + above.other;
+        let glows = any_glow(under) || any_glow(through) || any_glow(above);
         let noise = dither(position.xy + frame.tile_origin);
-        return vec4f(result.rgb + select(vec3f(0.0), noise, any(sum > vec3f(0.0))), result.a);
+        return vec4f(result.rgb + select(vec3f(0.0), noise, glows), result.a);
     }
     return result;
 }
@@ -427,6 +454,10 @@ override LINE_COLORS: bool = false;
 override LINE_METHOD: u32 = 0u;
 
 override PAINT_SCALE: i32 = 1;
+
+override glow_count: u32 = 9u;
+
+override glow_covers: bool = true;
 
 override glow_mixes: bool = true;
 

@@ -505,39 +505,42 @@ const _: () = assert!(
     std::mem::offset_of!(Frame, palette) == 640,
     "offset of Frame.palette does not match WGSL"
 );
+pub(crate) const GLOW_ADDS: u32 = 0u32;
+pub(crate) const GLOW_ADDS_LINEAR: u32 = 1u32;
+pub(crate) const GLOW_COVERS: u32 = 2u32;
 pub(crate) const GLOW_LINES_THROUGH: u32 = 1u32;
 pub(crate) const GLOW_OVER: u32 = 2u32;
 pub(crate) const GLOW_UNDER: u32 = 0u32;
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 pub(crate) struct Glow {
-    pub(crate) layers: [glam::UVec4; 6],
-    pub(crate) layer_count: u32,
+    pub(crate) layers: [glam::UVec4; 9],
     pub(crate) dithered: u32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
+    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Glow > () == 112, "size of Glow does not match WGSL"
+    std::mem::size_of::< Glow > () == 160, "size of Glow does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Glow, layers) == 0, "offset of Glow.layers does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Glow, layer_count) == 96,
-    "offset of Glow.layer_count does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Glow, dithered) == 100,
+    std::mem::offset_of!(Glow, dithered) == 144,
     "offset of Glow.dithered does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Glow, reserved_0) == 104,
+    std::mem::offset_of!(Glow, reserved_0) == 148,
     "offset of Glow.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Glow, reserved_1) == 108,
+    std::mem::offset_of!(Glow, reserved_1) == 152,
     "offset of Glow.reserved_1 does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Glow, reserved_2) == 156,
+    "offset of Glow.reserved_2 does not match WGSL"
 );
 pub(crate) const HATCH_BY_LIGHT: u32 = 1u32;
 pub(crate) const HATCH_CROSS: u32 = 2u32;

@@ -44,7 +44,7 @@ const MAX_CUTS: f32 = 32.0;
 
 const MAX_WAVES: u32 = 240u;
 
-const MISSED: Fit = Fit(NODE_MISSED, false);
+const MISSED: Fit = Fit(NODE_MISSED, false, false);
 
 const NODE_FITS: u32 = 1u;
 
@@ -54,7 +54,11 @@ const NODE_TOO_COARSE: u32 = 2u;
 
 const PATCH_RAYS: u32 = 24u;
 
+const PIXELS_OF_GROUP: u32 = 1u;
+
 const ROUGH: f32 = 0.15;
+
+const SAG: f32 = 0.17;
 
 const WAVE_ENDS: u32 = 1u;
 
@@ -66,9 +70,17 @@ const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
 const WAVE_VIEW_SURFACES: u32 = 2u;
 
+struct Cuts {
+    first: f32,
+    last: f32,
+    root: f32,
+    count: f32
+}
+
 struct Fit {
     fit: u32,
-    is_rough: bool
+    is_rough: bool,
+    is_rim: bool
 }
 
 struct RayWave {
@@ -245,18 +257,16 @@ fn core_at(wave: RayWave, distance: f32) -> f32 {
     return max(wave.core, pixel);
 }
 
-fn core_growth(wave: RayWave, ray: WaveRay, range: vec2f, distance: f32) -> f32 {
-    if (!core_grows) {
-        return 0.0;
-    }
-    let grown = core_at(wave, ray.middle + range.y);
-    let least = 0.5 * sqrt(wave.tolerance) * distance;
-    return log(max(grown / max(core_at(wave, ray.middle + range.x), least), 1.0));
+fn core_begins(wave: RayWave) -> f32 {
+    let is_pixel = (wave.core - wave.half_pixel.x) / max(wave.half_pixel.y, 1e-20);
+    return max(min(is_pixel, 1e30), view.depth_range.x);
 }
 
-fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
-    let sag = 0.25 * bend * length * length;
-    return sqrt(6.0 * sag / (wave.tolerance * distance));
+fn cuts_of(wave: RayWave, bend: f32, range: vec2f, distance: f32, w: f32) -> Cuts {
+    let root = sqrt(w);
+    let q = range / (sqrt(abs(range) + w) + root);
+    let count = (q.y - q.x) * sqrt(bend * w / (SAG * wave.tolerance * distance));
+    return Cuts(q.x, q.y, root, count);
 }
 
 fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
@@ -279,8 +289,7 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
         }
     }
     let core = core_at(wave, ray.middle + clamp(nearest, range.x, range.y));
-    let core2 = core * core;
-    let rim = rim_of(wave, core2);
+    let rim = rim_of(wave, core * core);
     let fades = fading_cuts(wave, ray.middle + range.x, ray.middle + range.y);
     let cuts = ceil(clamp(fades, 1.0, MAX_CUTS));
     var energy = 0.0;
@@ -291,7 +300,7 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
         let a = away + (t0 - nearest) * ray.direction;
         let b = away + (t1 - nearest) * ray.direction;
         let squares = vec3f(dot(a, a), dot(b, b), (t1 - t0) * (t1 - t0));
-        energy += piece_energy(squares, dot(a, b), away2 * squares.z, weights, t1 - t0, core2, rim);
+        energy += piece_energy(squares, dot(a, b), away2 * squares.z, weights, t1 - t0, vec2f(core), rim);
         t0 = t1;
     }
     return energy;
@@ -325,7 +334,7 @@ fn end_fits(end: u32, place: vec4f, wave: RayWave, ray: WaveRay, spread: vec2f, 
     let free = max(sqrt(away2) - wide, 0.0);
     let core = core_at(wave, ray.middle + nearest);
     let is_near = sqrt(free * free + core * core) < ROUGH * wide;
-    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y);
+    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y, false);
 }
 
 fn end_place(end: u32, wave: u32) -> vec4f {
@@ -430,6 +439,13 @@ fn finish_pixels(pixels: vec4u) {
     }
 }
 
+fn mean_rim(radius: f32, cores: vec2f) -> f32 {
+    let grown = (asinh(cores.y / max(radius, 1e-20)) - asinh(cores.x / max(radius, 1e-20))) / (cores.y - cores.x);
+    let even = inverseSqrt(radius * radius + cores.x * cores.y);
+    let is_even = abs(cores.y - cores.x) < 0.05 * (radius + cores.x);
+    return select(select(grown, even, is_even), 0.0, radius <= 0.0);
+}
+
 fn next_node(node: u32) -> u32 {
     let next = node + 1u;
     return next >> firstTrailingBit(next);
@@ -470,28 +486,25 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
     let near = e0 + nearest * e1;
     let distance = sqrt(max(dot(near, near) - bend * bend, 0.0) + nearest_core * nearest_core);
     let span = range.y - range.x;
-    let length_x = span * abs(ray.direction.x);
-    let growth = core_growth(wave, ray, range, distance);
-    let wanted = max(cuts_of(wave, bend * inverse * inverse, length_x, distance), max(fading_cuts(wave, ray.middle + range.x, ray.middle + range.y), 0.8 * growth * inverseSqrt(wave.tolerance)));
+    let slant = ray.direction.x * inverse;
+    let w = select(distance / max(sqrt(e11), 0.001), 1000000.0, fades);
+    let spaced = cuts_of(wave, bend * slant * slant, range - nearest, distance, w);
+    let faded = fading_cuts(wave, ray.middle + range.x, ray.middle + range.y);
+    let wanted = max(spaced.count, faded);
     let cuts = ceil(clamp(wanted, 1.0, MAX_CUTS));
-    let longer = select(1.0, exp(growth / cuts), core_grows && growth > 0.2);
-    var step = span / cuts;
-    if (longer > 1.0) {
-        step = span * (longer - 1.0) / (exp(growth) - 1.0);
-    }
+    let step = (spaced.last - spaced.first) / cuts;
+    let bound = core_begins(wave) - ray.middle;
+    let even_rim = rim_of(wave, nearest_core * nearest_core);
+    var q = spaced.first;
     var energy = 0.0;
     var t0 = range.x;
-    for (var i = 1.0; i <= cuts; i += 1.0) {
-        let t1 = select(t0 + step, range.y, i == cuts);
-        step *= longer;
-        var core = nearest_core;
-        if (core_grows) {
-            let middle = 0.5 * (t0 + t1);
-            let all_along = min(2.0 * nearest_core / (sqrt(e11) * (t1 - t0) + 1e-20), 1.0);
-            core = core_at(wave, ray.middle + mix(clamp(nearest, t0, t1), middle, all_along));
-        }
-        let core2 = core * core;
-        let rim = rim_of(wave, core2);
+    for (var i = 1.0; i <= cuts; ) {
+        let next = q + step;
+        var t1 = select(nearest + next * (abs(next) + 2.0 * spaced.root), range.y, i == cuts);
+        let is_bound = core_grows && t0 < bound && bound < t1;
+        t1 = select(t1, bound, is_bound);
+        q = select(next, q, is_bound);
+        i += select(1.0, 0.0, is_bound);
         let xi = clamp((ray.origin.x + vec2f(t0, t1) * ray.direction.x - nx.x) * inverse, vec2f(-1.0), vec2f(1.0));
         let sag = (xi.y - xi.x) * (xi.y - xi.x) * (1.0 / 6.0);
         let c0 = vec2f(ny.x + xi.x * (ny.y + xi.x * ny.z) - sag * ny.z, nz.x + xi.x * (nz.y + xi.x * nz.z) - sag * nz.z);
@@ -513,7 +526,16 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
             let share = part.y - part.x;
             let squares = vec3f(dot(a, a), dot(b, b), share * share * dot(change, change));
             let side2 = side * side * share * share;
-            energy += piece_energy(squares, dot(a, b), side2, weights, t.y - t.x, core2, rim);
+            var cores = vec2f(nearest_core);
+            var rim = even_rim;
+            if (core_grows) {
+                cores = vec2f(core_at(wave, ray.middle + t.x), core_at(wave, ray.middle + t.y));
+                rim = rim_of(wave, cores.x * cores.y);
+                if (rim_grows) {
+                    rim = mean_rim(wave.radius, cores);
+                }
+            }
+            energy += piece_energy(squares, dot(a, b), side2, weights, t.y - t.x, cores, rim);
         }
         t0 = t1;
     }
@@ -552,7 +574,7 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let middle = vec2f(ny.x + ny.z / 3.0, nz.x + nz.z / 3.0);
     let e0 = ray.origin.yz - middle - slope * (at - nx.x);
     let e1 = ray.direction.yz - slope * ray.direction.x;
-    let steep = 1.0 + more.w * inverse;
+    let steep = sqrt(1.0 + dot(slope, slope));
     let a = 0.667 * more.z + nz.w + steep * base;
     let b = steep * spread.y;
     let e11 = dot(e1, e1);
@@ -582,17 +604,26 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let d = sqrt(d2);
     let span = high - low;
     let along = max(abs(ray.direction.x), 1e-9);
-    let first = min(4.0 * more.x / along, nz.w * span) / d2;
-    let second = ny.w * span / (d2 * d);
+    let speed = sqrt(e11);
+    let squares = min(span, 3.1416 * d / speed) / d2;
+    let cubes = min(span, 2.0 * d / speed) / (d2 * d);
+    let first = min(4.0 * more.x / (along * d2), nz.w * squares);
+    let second = min(ny.w * span / (d2 * d), nz.w * nz.w * cubes);
     let error = first + second + 2.0 * more.y * span / d;
-    let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
-    let length_x = min(span * along, x1 - x0);
-    let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
+    let reaches = vec2f(low, high) - nearest;
+    let turns = asinh(reaches * speed / d);
+    let given = min(span / d, (turns.y - turns.x) / max(speed, 1e-12));
+    let share = max(given - span * rim_of(wave, core * core), 0.0);
+    let bend = more.z * inverse * inverse * along * along;
+    let cuts = cuts_of(wave, bend, reaches, d, d / max(speed, 0.001)).count;
     let is_cut = surface - ray.middle < high;
     let strict = select(1.0, 0.05, is_cut);
     let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
     let is_rough = is_cut || d < ROUGH * (base + spread.y * nearest);
-    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough);
+    let width = 2.0 * (a + b * nearest);
+    let part = width / max(radius, 1e-20);
+    let is_rim = radius > 0.0 && away + width > radius && 0.03 * part * sqrt(part) > 0.01 * wave.tolerance;
+    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough, is_rim);
 }
 
 fn node_place(ray: u32) -> vec2f {
@@ -605,14 +636,18 @@ fn patch_ray(square: u32, ray: u32) -> ViewRay {
     return view_ray(vec2f(corner) + f32(level.side) * (0.5 + 0.5 * place));
 }
 
-fn piece_energy(squares: vec3f, ab: f32, side2: f32, weights: vec2f, length: f32, core2: f32, rim: f32) -> f32 {
-    let r = sqrt(squares.xy + core2);
+fn piece_energy(squares: vec3f, ab: f32, side2: f32, weights: vec2f, length: f32, cores: vec2f, rim: f32) -> f32 {
+    let cores2 = cores * cores;
+    let product_cores = cores.x * cores.y;
+    let grown = cores.y - cores.x;
+    let r = sqrt(squares.xy + cores2);
     let product = r.x * r.y;
     let sum = r.x + r.y;
     let inverse = 1.0 / sum;
-    let x2 = squares.z * inverse * inverse;
-    let c = ab + core2;
-    let k = select((side2 + core2 * squares.z) / (product - c), product + c, c >= 0.0);
+    let x2 = (squares.z + grown * grown) * inverse * inverse;
+    let c = ab + product_cores;
+    let wedge = side2 + dot(squares.xy, cores2.yx) - 2.0 * ab * product_cores;
+    let k = select(wedge / (product - c), product + c, c >= 0.0);
     var h = 1.0 / 3.0 + x2 * (0.2 + x2 * (1.0 / 7.0 + x2 * (1.0 / 9.0)));
     var g = 1.0 + x2 * h;
     if (x2 >= 0.06) {
@@ -668,6 +703,10 @@ fn slab(ray: WaveRay, x0: f32, x1: f32) -> vec2f {
 
 fn square_corner(square: u32, across: u32, side: u32) -> vec2u {
     return (view.tile_origin / side + vec2u(square % across, square / across)) * side;
+}
+
+fn square_of_group(group: u32, n: u32, share: u32) -> u32 {
+    return (group + n / share * 65535u) * share + n % share;
 }
 
 fn square_ray(corner: vec2u, pixels: u32) -> SquareRay {
@@ -797,11 +836,13 @@ fn sample_patches(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgro
 
 @compute @workgroup_size(8, 4)
 fn collect_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
-    for (var i = group.x; i < squares[3]; i += 65535u) {
+    var i = square_of_group(group.x, 0u, PIXELS_OF_GROUP);
+    for (var n = 1u; i < squares[3]; n++) {
         let square = squares[4u + i];
         let rays = pixel_rays(square, group.y, local_id.xy);
         collect_list(square, rays);
         finish_pixels(rays.places);
+        i = square_of_group(group.x, n, PIXELS_OF_GROUP);
     }
 }
 
@@ -822,6 +863,8 @@ override fades: bool = true;
 override hides: bool = true;
 
 override keeps_energy: bool = true;
+
+override rim_grows: bool = true;
 
 override samples: bool = false;
 

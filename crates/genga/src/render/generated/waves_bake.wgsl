@@ -245,11 +245,10 @@ fn merged(left: WaveNode, right: WaveNode) -> WaveNode {
         largest = max(largest, vec2f(length(off_left), length(off_right)));
     }
     let bend = length(vec2f(c[0].z, c[1].z));
-    let tilt = length(vec2f(c[0].y, c[1].y)) + 2.0 * bend;
     let joint = mix(left.x.z, right.x.w, shares.x);
     let off_alpha = max(max(left.more.y, right.more.y), max(abs(left.x.w - joint), abs(right.x.z - joint)));
     let within = max(left.more.x, right.more.x);
-    return WaveNode(vec4f(middle, half, left.x.z, right.x.w), vec4f(c[0], dot(shares, vec2f(left.y.w, right.y.w) + squares)), vec4f(c[1], max(left.z.w + largest.x, right.z.w + largest.y)), vec4f(within + 2.0 * max(left.x.y * sums.x, right.x.y * sums.y), off_alpha, bend, tilt));
+    return WaveNode(vec4f(middle, half, left.x.z, right.x.w), vec4f(c[0], dot(shares, vec2f(left.y.w, right.y.w) + squares)), vec4f(c[1], max(left.z.w + largest.x, right.z.w + largest.y)), vec4f(within + 2.0 * max(left.x.y * sums.x, right.x.y * sums.y), off_alpha, bend, 0.0));
 }
 
 fn noise_at(wave: u32, s: f32) -> vec2f {
@@ -387,12 +386,11 @@ fn bake_leaves(@builtin(global_invocation_id) id: vec3u) {
             largest_sum = max(largest_sum, length(sum));
         }
         let bend = length(vec2f(c[0].z, c[1].z));
-        let tilt = length(vec2f(c[0].y, c[1].y)) + 2.0 * bend;
         node.x.z = alpha_at(wave, s0);
         node.x.w = alpha_at(wave, s1);
         node.y = vec4f(c[0], square);
         node.z = vec4f(c[1], largest);
-        node.more = vec4f(half * largest_sum, 0.0, bend, tilt);
+        node.more = vec4f(half * largest_sum, 0.0, bend, 0.0);
     }
     nodes[waves[wave].node_first + leaves + id.x] = node;
 }

@@ -21,6 +21,8 @@ var<storage, read_write> smooth_squares: Squares;
 @group(1) @binding(6)
 var<storage, read_write> left_squares: Squares;
 
+const PATCHES_OF_GROUP: u32 = 4u;
+
 const PATCH_NODES: u32 = 16u;
 
 const PATCH_RAYS: u32 = 24u;
@@ -118,6 +120,10 @@ fn fit_patch(square: u32, layer: u32) -> bool {
     return worst.w <= tolerance * max(least, floor) && all(worst.rgb <= vec3f(allowed));
 }
 
+fn groups_of(count: u32, share: u32) -> u32 {
+    return min((count + share - 1u) / share, 65535u);
+}
+
 fn row(p: u32, least: ptr<function, f32>) -> mat4x4f {
     let a = patches[p];
     let b = patches[p + 1u];
@@ -152,7 +158,7 @@ fn fit_patches(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups
         if (is_smooth) {
             let at = atomicAdd(&smooth_squares.count, 1u);
             smooth_squares.squares[at] = (square << 8u) | (firstTrailingBit(level.side) << 4u) | layers;
-            atomicMax(&smooth_squares.groups, min(at + 1u, 65535u));
+            atomicMax(&smooth_squares.groups, groups_of(at + 1u, PATCHES_OF_GROUP));
             smooth_squares.rows = 1u;
             smooth_squares.layers = 1u;
         }

@@ -415,17 +415,7 @@ fn place_at(wave: u32, s: f32) -> vec3f {
         return vec3f(numbers.x * s, sums);
     }
     if (curve_kind == CURVE_BEZIER) {
-        let rest = 1.0 - s;
-        let degree = max(point_count, 1u) - 1u;
-        var power = 1.0;
-        var binomial = 1.0;
-        var sum = points[0] * rest;
-        for (var i = 1u; i < degree; i++) {
-            power *= s;
-            binomial *= f32(degree - i + 1u) / f32(i);
-            sum = (sum + power * binomial * points[i]) * rest;
-        }
-        return sum + power * s * points[degree];
+        return printed_bezier_at(s);
     }
     if (curve_kind == CURVE_B_SPLINE) {
         if (de_boor) {
@@ -439,6 +429,25 @@ fn place_at(wave: u32, s: f32) -> vec3f {
 fn point_at(first: u32, index: u32) -> vec3f {
     let at = first + 3u * index;
     return vec3f(wave_data[at], wave_data[at + 1u], wave_data[at + 2u]);
+}
+
+fn printed_bezier_at(s: f32) -> vec3f {
+    let degree = max(point_count, 1u) - 1u;
+    var powers: array<f32, 16>;
+    var rests: array<f32, 16>;
+    powers[0] = 1.0;
+    rests[0] = 1.0;
+    for (var i = 1u; i <= degree; i++) {
+        powers[i] = powers[i - 1u] * s;
+        rests[i] = rests[i - 1u] * (1.0 - s);
+    }
+    var binomial = 1.0;
+    var sum = vec3f(0.0);
+    for (var i = 0u; i <= degree; i++) {
+        sum += binomial * powers[i] * rests[degree - i] * points[i];
+        binomial *= f32(degree - i) / f32(i + 1u);
+    }
+    return sum;
 }
 
 fn printed_spline_at(s: f32) -> vec3f {

@@ -18,6 +18,8 @@ var glow: texture_storage_2d_array<rgba16float, write>;
 @group(1) @binding(5)
 var energy_target: texture_storage_2d<r32float, write>;
 
+const PATCHES_OF_GROUP: u32 = 4u;
+
 const PATCH_RAYS: u32 = 24u;
 
 struct WaveLevel {
@@ -71,15 +73,12 @@ fn draw_patch(square: u32, side: u32, layer: u32, layers: u32, local_id: vec2u) 
         let p3 = c0[3] + x * (c1[3] + x * (c2[3] + x * c3[3]));
         let powers = mat4x4f(p0, p1, p2, p3);
         for (var dy = 0u; dy < side; dy += 4u) {
-            let whole = corner + vec2u(dx, dy) + local_id;
-            let pixel = whole - view.tile_origin;
-            if (all(whole >= view.tile_origin) && all(pixel < view.tile_size)) {
-                let y = scale * (f32(dy + local_id.y) + 0.5) - 1.0;
-                let value = max(at_power(powers, y), vec4f(0.0));
-                textureStore(glow, pixel, layer, vec4f(min(value.rgb, vec3f(60000.0)), 0.0));
-                if (is_last && keeps_energy) {
-                    textureStore(energy_target, pixel, vec4f(value.w, 0.0, 0.0, 0.0));
-                }
+            let pixel = corner + vec2u(dx, dy) + local_id - view.tile_origin;
+            let y = scale * (f32(dy + local_id.y) + 0.5) - 1.0;
+            let value = max(at_power(powers, y), vec4f(0.0));
+            textureStore(glow, pixel, layer, vec4f(value.rgb, 0.0));
+            if (is_last && keeps_energy) {
+                textureStore(energy_target, pixel, vec4f(value.w, 0.0, 0.0, 0.0));
             }
         }
     }
@@ -89,15 +88,21 @@ fn square_corner(square: u32, across: u32, side: u32) -> vec2u {
     return (view.tile_origin / side + vec2u(square % across, square / across)) * side;
 }
 
+fn square_of_group(group: u32, n: u32, share: u32) -> u32 {
+    return (group + n / share * 65535u) * share + n % share;
+}
+
 @compute @workgroup_size(8, 4)
 fn draw_patches(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
-    for (var i = group.x; i < squares[3]; i += 65535u) {
+    var i = square_of_group(group.x, 0u, PATCHES_OF_GROUP);
+    for (var n = 1u; i < squares[3]; n++) {
         let entry = squares[4u + i];
         let side = 1u << ((entry >> 4u) & 15u);
         let layers = entry & 15u;
         for (var layer = 0u; layer < layers; layer++) {
             draw_patch(entry >> 8u, side, layer, layers, local_id.xy);
         }
+        i = square_of_group(group.x, n, PATCHES_OF_GROUP);
     }
 }
 

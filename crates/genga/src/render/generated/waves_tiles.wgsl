@@ -33,7 +33,7 @@ const MANY_CUTS: f32 = 5.0;
 
 const MAX_WAVES: u32 = 240u;
 
-const MISSED: Fit = Fit(NODE_MISSED, false);
+const MISSED: Fit = Fit(NODE_MISSED, false, false);
 
 const NODE_FITS: u32 = 1u;
 
@@ -43,7 +43,11 @@ const NODE_TOO_COARSE: u32 = 2u;
 
 const PATCH_RAYS: u32 = 24u;
 
+const PIXELS_OF_GROUP: u32 = 1u;
+
 const ROUGH: f32 = 0.15;
+
+const SAG: f32 = 0.17;
 
 const WAVE_ENDS: u32 = 1u;
 
@@ -55,9 +59,17 @@ const WAVE_VIEW_ORTHOGRAPHIC: u32 = 1u;
 
 const WAVE_VIEW_SURFACES: u32 = 2u;
 
+struct Cuts {
+    first: f32,
+    last: f32,
+    root: f32,
+    count: f32
+}
+
 struct Fit {
     fit: u32,
-    is_rough: bool
+    is_rough: bool,
+    is_rim: bool
 }
 
 struct RayWave {
@@ -185,9 +197,11 @@ fn core_at(wave: RayWave, distance: f32) -> f32 {
     return max(wave.core, pixel);
 }
 
-fn cuts_of(wave: RayWave, bend: f32, length: f32, distance: f32) -> f32 {
-    let sag = 0.25 * bend * length * length;
-    return sqrt(6.0 * sag / (wave.tolerance * distance));
+fn cuts_of(wave: RayWave, bend: f32, range: vec2f, distance: f32, w: f32) -> Cuts {
+    let root = sqrt(w);
+    let q = range / (sqrt(abs(range) + w) + root);
+    let count = (q.y - q.x) * sqrt(bend * w / (SAG * wave.tolerance * distance));
+    return Cuts(q.x, q.y, root, count);
 }
 
 fn end_fits(end: u32, place: vec4f, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32) -> Fit {
@@ -218,7 +232,7 @@ fn end_fits(end: u32, place: vec4f, wave: RayWave, ray: WaveRay, spread: vec2f, 
     let free = max(sqrt(away2) - wide, 0.0);
     let core = core_at(wave, ray.middle + nearest);
     let is_near = sqrt(free * free + core * core) < ROUGH * wide;
-    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y);
+    return Fit(NODE_FITS, is_near || surface - ray.middle < t.y, false);
 }
 
 fn end_place(end: u32, wave: u32) -> vec4f {
@@ -238,6 +252,10 @@ fn end_range(end: u32, place: vec3f) -> vec2f {
     return vec2f(-1e30, 1e30);
 }
 
+fn groups_of(count: u32, share: u32) -> u32 {
+    return min((count + share - 1u) / share, 65535u);
+}
+
 fn list_square(square: u32) {
     let corner = square_corner(square, level.across, level.side);
     let middle = square_ray(corner, level.side);
@@ -249,6 +267,7 @@ fn list_square(square: u32) {
     var tolerance = 1.0;
     var brightest = 0.0;
     var is_given_up = false;
+    var is_rim = true;
     for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
         let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
         let seen = select(vec2f(1e30), surfaces, is_occluded);
@@ -271,6 +290,7 @@ fn list_square(square: u32) {
                     lists[end] = root + node;
                 }
                 end += 1u;
+                is_rim = is_rim && found.is_rim;
             }
             is_given_up = is_used && is_coarse && (found.is_rough || end > last + 1u);
             node = select(2u * node, next_node(node), is_used || is_missed);
@@ -282,6 +302,7 @@ fn list_square(square: u32) {
             let found = end_fits(i, end_place(i, wave), numbers, local, middle.spread, seen.x);
             if (found.fit != NODE_MISSED) {
                 ends |= 1u << i;
+                is_rim = false;
                 is_given_up |= is_coarse && found.is_rough;
             }
         }
@@ -297,6 +318,7 @@ fn list_square(square: u32) {
             brightest = max(brightest, max(waves[wave].alpha, max(waves[wave].swell.x, waves[wave].swell.y)));
         }
     }
+    is_given_up |= is_coarse && is_rim && end > first + LIST_HEAD;
     lists[first] = min(end - first - LIST_HEAD, level.stride - LIST_HEAD);
     lists[first + 1u] = bitcast<u32>(tolerance);
     lists[first + 2u] = bitcast<u32>(0.02 * brightest);
@@ -313,7 +335,7 @@ fn list_square(square: u32) {
     else if (end > first + LIST_HEAD) {
         let i = atomicAdd(&used_squares.count, 1u);
         used_squares.squares[i] = square;
-        let groups = select(i + 1u, (PATCH_RAYS / 2u * (i + 1u) + 63u) / 64u, is_coarse);
+        let groups = select(groups_of(i + 1u, PIXELS_OF_GROUP), (PATCH_RAYS / 2u * (i + 1u) + 63u) / 64u, is_coarse);
         atomicMax(&used_squares.groups, min(groups, 65535u));
         used_squares.rows = select(pixel_groups, 1u, is_coarse);
         used_squares.layers = 1u;
@@ -357,7 +379,7 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let middle = vec2f(ny.x + ny.z / 3.0, nz.x + nz.z / 3.0);
     let e0 = ray.origin.yz - middle - slope * (at - nx.x);
     let e1 = ray.direction.yz - slope * ray.direction.x;
-    let steep = 1.0 + more.w * inverse;
+    let steep = sqrt(1.0 + dot(slope, slope));
     let a = 0.667 * more.z + nz.w + steep * base;
     let b = steep * spread.y;
     let e11 = dot(e1, e1);
@@ -387,17 +409,26 @@ fn node_fits(node: u32, wave: RayWave, ray: WaveRay, spread: vec2f, surface: f32
     let d = sqrt(d2);
     let span = high - low;
     let along = max(abs(ray.direction.x), 1e-9);
-    let first = min(4.0 * more.x / along, nz.w * span) / d2;
-    let second = ny.w * span / (d2 * d);
+    let speed = sqrt(e11);
+    let squares = min(span, 3.1416 * d / speed) / d2;
+    let cubes = min(span, 2.0 * d / speed) / (d2 * d);
+    let first = min(4.0 * more.x / (along * d2), nz.w * squares);
+    let second = min(ny.w * span / (d2 * d), nz.w * nz.w * cubes);
     let error = first + second + 2.0 * more.y * span / d;
-    let share = span * max(1.0 / d - rim_of(wave, core * core), 0.0);
-    let length_x = min(span * along, x1 - x0);
-    let cuts = cuts_of(wave, more.z * inverse * inverse, length_x, d);
+    let reaches = vec2f(low, high) - nearest;
+    let turns = asinh(reaches * speed / d);
+    let given = min(span / d, (turns.y - turns.x) / max(speed, 1e-12));
+    let share = max(given - span * rim_of(wave, core * core), 0.0);
+    let bend = more.z * inverse * inverse * along * along;
+    let cuts = cuts_of(wave, bend, reaches, d, d / max(speed, 0.001)).count;
     let is_cut = surface - ray.middle < high;
     let strict = select(1.0, 0.05, is_cut);
     let fits = error <= strict * wave.tolerance * max(0.2 * share, 0.012) && cuts <= MANY_CUTS;
     let is_rough = is_cut || d < ROUGH * (base + spread.y * nearest);
-    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough);
+    let width = 2.0 * (a + b * nearest);
+    let part = width / max(radius, 1e-20);
+    let is_rim = radius > 0.0 && away + width > radius && 0.03 * part * sqrt(part) > 0.01 * wave.tolerance;
+    return Fit(select(NODE_TOO_COARSE, NODE_FITS, fits), is_rough, is_rim);
 }
 
 fn ray_distance(ray: ViewRay, depth: f32) -> f32 {

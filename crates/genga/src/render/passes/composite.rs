@@ -116,8 +116,10 @@ impl CompositePass {
     fn pipeline(&self, device: &wgpu::Device, kind: Kind) -> Arc<wgpu::RenderPipeline> {
         let number = |on: bool| f64::from(u8::from(on));
         let constants = [
-            ("has_glow", number(kind.glow.shows)),
+            ("has_glow", number(kind.glow.layers > 0)),
             ("glow_mixes", number(kind.glow.mixes)),
+            ("glow_covers", number(kind.glow.covers)),
+            ("glow_count", f64::from(kind.glow.layers)),
             ("has_beams", number(kind.beams)),
             ("PAINT_SCALE", f64::from(kind.paint_scale)),
             ("LINE_METHOD", f64::from(kind.line_method)),

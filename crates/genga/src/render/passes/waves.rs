@@ -317,6 +317,7 @@ impl WavePass {
             let constants = [
                 ("fades", number(kind.fades)),
                 ("core_grows", number(kind.core_grows)),
+                ("rim_grows", number(kind.rim_grows)),
                 ("hides", number(kind.hides)),
                 ("keeps_energy", number(kind.keeps_energy)),
                 ("samples", number(samples)),

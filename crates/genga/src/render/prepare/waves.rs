@@ -34,24 +34,29 @@ pub(crate) struct WaveData {
     fades: bool,
     /// Some wave is hidden by what is before it.
     occluded: bool,
-    /// For each wave: a sphere round all its glow in the world, and its ε.
-    spheres: Vec<(Vec3, f32, f32)>,
+    /// For each wave: a sphere round all its glow in the world, its ε and its R.
+    spheres: Vec<(Vec3, f32, [f32; 2])>,
 }
 
 /// What the composite is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GlowKind {
-    /// There are waves.
-    pub(crate) shows: bool,
-    /// Some wave's blend space is not the style's.
+    pub(crate) layers: u32,
+    /// Some wave is added in another space than the style's.
     pub(crate) mixes: bool,
+    /// Some wave covers what is behind it.
+    pub(crate) covers: bool,
 }
 
 impl WaveData {
     pub(crate) fn glow_kind(&self, style: &Style) -> GlowKind {
         let is_linear = style.paint.blend_space == BlendSpace::Linear;
-        let is_other = |(_, blend): &(_, WaveBlend)| (*blend == WaveBlend::Linear) != is_linear;
-        GlowKind { shows: !self.layers.is_empty(), mixes: self.layers.iter().any(is_other) }
+        let has = |blend| self.layers.iter().any(|layer| layer.1 == blend);
+        GlowKind {
+            layers: self.layers.len() as u32,
+            mixes: has(if is_linear { WaveBlend::Display } else { WaveBlend::Linear }),
+            covers: has(WaveBlend::Normal),
+        }
     }
 }
 
@@ -62,6 +67,8 @@ pub(crate) struct ExactKind {
     pub(crate) fades: bool,
     /// Some soft core is less than half a pixel somewhere.
     pub(crate) core_grows: bool,
+    /// Some grows to more than a small part of its wave's radius.
+    pub(crate) rim_grows: bool,
     /// Surfaces hide some of the waves.
     pub(crate) hides: bool,
     /// The energy itself is wanted.
@@ -77,13 +84,14 @@ impl WaveData {
         (has_surfaces, keeps_energy): (bool, bool),
     ) -> ExactKind {
         let eye = Vec3::from(view.camera.world_from_camera.translation);
-        let grows = |&(middle, radius, core): &(Vec3, f32, f32)| {
+        let half_pixel = |middle: Vec3, radius| {
             let distance = if projected.orthographic { 1.0 } else { eye.distance(middle) + radius };
-            core < 0.5 * projected.pixel_footprint * distance
+            0.5 * projected.pixel_footprint * distance
         };
         ExactKind {
             fades: self.fades,
-            core_grows: self.spheres.iter().any(grows),
+            core_grows: self.spheres.iter().any(|&(p, r, [core, _])| core < half_pixel(p, r)),
+            rim_grows: self.spheres.iter().any(|&(p, r, [_, rim])| 0.05 * rim < half_pixel(p, r)),
             hides: has_surfaces && self.occluded,
             keeps_energy,
         }
@@ -240,9 +248,13 @@ impl WaveData {
                 WaveOrder::LinesThrough => gpu::GLOW_LINES_THROUGH,
                 WaveOrder::Over => gpu::GLOW_OVER,
             };
-            slot.y = u32::from(*blend == WaveBlend::Linear);
+            slot.y = match blend {
+                WaveBlend::Display => gpu::GLOW_ADDS,
+                WaveBlend::Linear => gpu::GLOW_ADDS_LINEAR,
+                WaveBlend::Normal => gpu::GLOW_COVERS,
+            };
+            slot.z = 1;
         }
-        glow.layer_count = self.layers.len() as u32;
         glow.dithered = u32::from(output.dithered);
         glow
     }
@@ -427,13 +439,13 @@ fn bound(curve: &WaveCurve<'_>, bounds: &[f64], samples: &[DVec3]) -> Vec4 {
     (0.5 * (low + high)).as_vec3().extend(radius as f32)
 }
 
-/// A sphere round all that glows, in the world, and ε.
-fn sphere(wave: &GpuWave) -> (Vec3, f32, f32) {
+/// A sphere round all that glows, in the world, ε and R.
+fn sphere(wave: &GpuWave) -> (Vec3, f32, [f32; 2]) {
     let local = wave.bound;
     let axes = [wave.axis_x, wave.axis_y, wave.axis_z].map(Vec4::truncate);
     let middle = wave.origin.truncate() + axes[0] * local.x + axes[1] * local.y + axes[2] * local.z;
     let glow = if wave.radius > 0.0 { wave.radius } else { wave.origin.w };
-    (middle, local.w + glow, wave.core)
+    (middle, local.w + glow, [wave.core, if wave.radius > 0.0 { wave.radius } else { f32::MAX }])
 }
 
 /// Radius about the middle of the bound, parallel to x, that holds the curve.
@@ -454,7 +466,7 @@ fn is_even(curve: &WaveCurve<'_>) -> bool {
 /// A colour as it is added: premultiplied, in the wave's blend space.
 fn added_color(color: Vec4, blend: WaveBlend) -> Vec4 {
     let rgb = match blend {
-        WaveBlend::Display => color.truncate(),
+        WaveBlend::Display | WaveBlend::Normal => color.truncate(),
         WaveBlend::Linear => color.truncate().map(linear_from_srgb),
     };
     (rgb * color.w).extend(color.w)
