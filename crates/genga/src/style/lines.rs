@@ -171,8 +171,9 @@ pub struct Strokes {
     /// pixels at `reference_height`.
     #[schemars(range(min = 0, max = 1000))]
     pub min_length: f32,
-    /// Gaps up to this length between two visible parts of one stroke are closed, in pixels at
-    /// `reference_height`. What lies in front still covers them.
+    /// Gaps up to this length between two visible parts of one stroke are closed, and strokes that
+    /// run out are drawn on to another one that goes on so near, in pixels at `reference_height`.
+    /// What lies in front still covers them.
     #[schemars(range(min = 0, max = 1000))]
     pub gap: f32,
 }

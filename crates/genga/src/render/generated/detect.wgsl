@@ -47,7 +47,7 @@ const MIN_FACING: f32 = 0.1;
 
 const ROWS: i32 = 8;
 
-const WEAK_CREASE: f32 = 0.1;
+const WEAK_CREASE: f32 = 0.7;
 
 struct Detect {
     depth: f32,
@@ -138,7 +138,7 @@ fn breaks(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, plane: vec2f) 
 fn can_meet(c: Side, q: Side) -> bool {
     let are_surfaces = c.id.x != 0u && q.id.x != 0u && max(c.normal.a, q.normal.a) > 0.0;
     let differ = ((c.id.x ^ q.id.x) & ID_OBJECT) != 0u || c.id.y != q.id.y;
-    let turned = dot(c.normal.xyz, q.normal.xyz) < frame.detect.crease_cos + WEAK_CREASE;
+    let turned = dot(c.normal.xyz, q.normal.xyz) < weak_crease_cos(frame.detect.crease_cos);
     return are_surfaces && (differ || turned);
 }
 
@@ -270,6 +270,10 @@ fn texel(at: vec2i, size: vec2i) -> Texel {
         return Texel(at, id, 0.0, vec4f(0.0));
     }
     return Texel(at, id, textureLoad(depths, inside, 0), textureLoad(normals, inside, 0));
+}
+
+fn weak_crease_cos(crease_cos: f32) -> f32 {
+    return mix(1.0, crease_cos, WEAK_CREASE);
 }
 
 @compute @workgroup_size(64)

@@ -74,7 +74,7 @@ const SET_HIDDEN: u32 = 1u;
 
 const SMALL_STEP: f32 = 8.0;
 
-const WEAK_CREASE: f32 = 0.1;
+const WEAK_CREASE: f32 = 0.7;
 
 struct Course {
     a: vec2f,
@@ -331,6 +331,10 @@ fn is_same(a: vec2u, b: vec2u) -> bool {
     return ((a.x ^ b.x) & ID_OBJECT) == 0u && ((a.y ^ b.y) & 65535u) == 0u;
 }
 
+fn is_strong(side: Side) -> bool {
+    return (side.types & ~LINE_CREASE) != 0u || ((side.types & LINE_CREASE) != 0u && side.crease > 0.0);
+}
+
 fn meeting(depth_b: f32, depth_c: f32, depth_q: f32, depth_a: f32, slack: f32) -> Meeting {
     let slope_c = depth_c - depth_b;
     let slope_q = depth_a - depth_q;
@@ -400,8 +404,10 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     }
     let n_c = normal_of(c);
     let n_q = normal_of(q);
-    let turn = frame.detect.crease_cos - dot(n_c, n_q);
-    if (turn > -WEAK_CREASE && dot(n_c, normal_of(c - step)) > SAME_FACE && dot(n_q, normal_of(q + step)) > SAME_FACE) {
+    let cosine = dot(n_c, n_q);
+    let turn = frame.detect.crease_cos - cosine;
+    let is_turned = cosine < weak_crease_cos(frame.detect.crease_cos);
+    if (is_turned && dot(n_c, normal_of(c - step)) > SAME_FACE && dot(n_q, normal_of(q + step)) > SAME_FACE) {
         types |= LINE_CREASE;
     }
     if (types == 0u) {
@@ -440,6 +446,10 @@ fn texel_of(p_px: vec2f) -> vec2i {
     return clamp(at, vec2i(0), size - 1);
 }
 
+fn weak_crease_cos(crease_cos: f32) -> f32 {
+    return mix(1.0, crease_cos, WEAK_CREASE);
+}
+
 @compute @workgroup_size(64)
 fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let number = id.x + id.y * groups.x * 64u;
@@ -459,6 +469,15 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     }
     var sides = array<Side, 4>(side_between(at, right), side_between(below, across), side_between(at, below), side_between(right, across));
     var keys = array<vec2u, 4>(side_key(at, 0u), side_key(below, 0u), side_key(at, 1u), side_key(right, 1u));
+    var strong = 0u;
+    for (var i = 0; i < 4; i++) {
+        strong += select(0u, 1u, is_strong(sides[i]));
+    }
+    for (var i = 0; i < 4; i++) {
+        if (strong >= 2u && !is_strong(sides[i])) {
+            sides[i].types = 0u;
+        }
+    }
     var count = 0u;
     var types = 0u;
     var crease = -1.0;

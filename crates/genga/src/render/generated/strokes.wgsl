@@ -78,6 +78,10 @@ const PIECE_MEETS_A: u32 = 4096u;
 
 const PIECE_MEETS_B: u32 = 8192u;
 
+const PIECE_SEAM: u32 = 2048u;
+
+const SEAM_BRANCH: f32 = 1.5;
+
 const SETS: u32 = 15u;
 
 const SET_COLOR_BASE: u32 = 2u;
@@ -352,11 +356,14 @@ fn handed_over(radius: f32, away: f32, onward: u32) -> f32 {
     }
     let state = states[(onward - 1u) >> 1u];
     let width = unpack2x16float(state.y)[(onward - 1u) & 1u];
-    var other = 0.0;
+    var other = -1.0;
     for (var i = 0u; i < 4u; i++) {
-        if (((state.x >> i) & 1u) != 0u) {
+        if (((state.x >> i) & 1u) != 0u && (frame.line_sets[i].flags & SET_HIDDEN) == 0u) {
             other = max(other, width * frame.line_sets[i].radius);
         }
+    }
+    if (other < 0.0) {
+        return radius;
     }
     let share = smoothstep(0.0, HANDED_OVER * max(radius - other, 0.0) + 0.001, away);
     return min(radius, mix(other, radius, share));
@@ -507,6 +514,15 @@ fn line_coverage(distance: f32, radius: f32) -> f32 {
     return clamp(min(distance + 0.5, radius) - max(distance - 0.5, -radius), 0.0, 1.0);
 }
 
+fn other_sets_beyond(line_set: u32, end: u32) -> u32 {
+    let onward = links[end] & LINK_END;
+    if (onward == 0u) {
+        return 0u;
+    }
+    let drawn = states[(onward - 1u) >> 1u].x & SETS;
+    return select(0u, onward, drawn != 0u && ((drawn >> line_set) & 1u) == 0u);
+}
+
 fn pixels_along(way: vec2f) -> f32 {
     return max(max(abs(way.x), abs(way.y)), 1e-6);
 }
@@ -621,13 +637,21 @@ fn stroke_vertex(@builtin(vertex_index) vertex: u32) -> Stroke {
     let start = ending(2u * piece);
     let end = ending(2u * piece + 1u);
     let whole = start.distance + own + end.distance;
-    let is_short = !start.is_closed && !start.is_joined && !end.is_joined;
-    let shown = select(1.0, saturate(whole / max(frame.min_stroke, 1e-6) - 1.0), is_short && frame.min_stroke > 0.0);
+    let is_held = start.is_joined || end.is_joined;
+    var least = select(frame.min_stroke, 0.0, is_held);
+    let is_seam = (pieces[piece].sets & PIECE_SEAM) != 0u;
+    if (is_seam && is_held && !(start.is_joined && end.is_joined)) {
+        least = min(SEAM_BRANCH / min(frame.gbuffer_scale, 1.0), frame.min_stroke);
+    }
+    let can_be_short = !start.is_closed && least > 0.0;
+    let shown = select(1.0, saturate(whole / max(least, 1e-6) - 1.0), can_be_short);
     if (shown <= 0.0) {
         return nothing;
     }
-    let radius_a = shown * radius_at(line_set, piece, false, start.distance, end.distance + own, start, end);
-    let radius_b = shown * radius_at(line_set, piece, true, start.distance + own, end.distance, start, end);
+    var radius_a = shown * radius_at(line_set, piece, false, start.distance, end.distance + own, start, end);
+    var radius_b = shown * radius_at(line_set, piece, true, start.distance + own, end.distance, start, end);
+    radius_a = handed_over(radius_a, 0.0, other_sets_beyond(line_set, 2u * piece));
+    radius_b = handed_over(radius_b, 0.0, other_sets_beyond(line_set, 2u * piece + 1u));
     a += wobble_at(line_set, piece, false, pieces[piece].depth_a);
     b += wobble_at(line_set, piece, true, pieces[piece].depth_b);
     let p_px = capsule_corner(corner, a, b, max(radius_a, radius_b) + 1.0);
