@@ -13,7 +13,23 @@ pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let mut render = Command::new(genga);
     render.args(["render", "--output"]).arg(folder.join("{model}.png"));
     process::run(render.args(&files))?;
-    sheet::draw(genga, &[cameras(&read(&scenes, "waves-cameras.scene.toml")?)?], &scenes, folder)
+    let sheets = [cameras(&read(&scenes, "waves-cameras.scene.toml")?)?, blends(&scenes)?];
+    sheet::draw(genga, &sheets, &scenes, folder)
+}
+
+/// Beam and volley before a bright sky: added, and covering it.
+fn blends(scenes: &Path) -> Result<Sheet> {
+    let day = "version = 1\nextends = \"anime\"\n[background]\ncolor = \"#6fb4ea\"\n\
+               bottom = \"#e6f3fb\"\n";
+    let mut cells = Vec::new();
+    for (name, radius) in [("beam", "radius = 0.5\n"), ("volley", "radius = 0.2\n")] {
+        let added = read(scenes, &format!("waves-hero-{name}.scene.toml"))?;
+        let covering = changed(&added, radius, &format!("{radius}blend = \"normal\"\n"))?;
+        for scene in [added, covering] {
+            cells.push(Cell { scene, style: Some(day.to_owned()), options: Vec::new() });
+        }
+    }
+    Ok(Sheet { name: "waves-blends", cell: [480, 270], columns: 2, cells })
 }
 
 /// One helix from the side, from before and behind its head, along its axis, and from inside (Abe

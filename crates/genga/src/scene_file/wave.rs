@@ -404,9 +404,8 @@ impl Written {
         // Stretching makes any length the right one.
         let is_between = self.to.is_some() || self.to_node.is_some();
         let given_length = self.length.or(is_between.then_some(1.0));
-        let length = || {
-            given_length.ok_or_else(|| format!("must have a 'length' or an end, as a {name}"))
-        };
+        let length =
+            || given_length.ok_or_else(|| format!("must have a 'length' or an end, as a {name}"));
         let points = || match &self.points {
             Some(points) => Ok(points.iter().map(|&p| Vec3::from(p)).collect::<Vec<_>>()),
             None => Err(format!("must have 'points', as a {name}")),
