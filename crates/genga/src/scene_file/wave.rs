@@ -255,7 +255,8 @@ pub(super) struct Written {
     /// How it moves.
     #[serde(default)]
     motion: Motion,
-    /// The moment of the motion in seconds.
+    /// The moment of the motion in seconds, to which that of a frame is added: below 0 it begins so
+    /// much later.
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     time: f32,
