@@ -36,16 +36,17 @@ fn blends(scenes: &Path) -> Result<Sheet> {
 /// 2024, figures 4.3).
 fn cameras(scene: &str) -> Result<Sheet> {
     let places = [
-        ([1.0, 0.0, 4.2], [1.0, 0.0, 0.0]),
-        ([4.4, 1.2, 2.2], [1.0, 0.0, 0.0]),
-        ([-2.2, 0.8, 1.4], [1.0, 0.0, 0.0]),
-        ([4.6, 0.001, 0.0], [0.0, 0.0, 0.0]),
-        ([-1.2, 0.0, 0.001], [2.0, 0.0, 0.0]),
-        ([0.3, 0.0, 0.0], [2.0, 0.05, 0.0]),
+        ([1.0, 0.0, 4.2], [1.0, 0.0, 0.0], 29),
+        ([4.4, 1.2, 2.2], [1.0, 0.0, 0.0], 22),
+        ([-2.2, 0.8, 1.4], [1.0, 0.0, 0.0], 24),
+        ([4.6, 0.001, 0.0], [0.0, 0.0, 0.0], 26),
+        ([-1.2, 0.0, 0.001], [2.0, 0.0, 0.0], 40),
+        ([0.3, 0.0, 0.0], [2.0, 0.05, 0.0], 40),
     ];
-    let cell = |(eye, at): ([f64; 3], [f64; 3])| {
+    let cell = |(eye, at, fov): ([f64; 3], [f64; 3], u32)| {
         let scene = changed(scene, "position = [1, 0, 4.2]", &format!("position = {eye:?}"))?;
         let scene = changed(&scene, "target = [1, 0, 0]", &format!("target = {at:?}"))?;
+        let scene = changed(&scene, "fov_deg = 40", &format!("fov_deg = {fov}"))?;
         Ok(Cell { scene, style: None, options: Vec::new() })
     };
     let cells: Result<_> = places.into_iter().map(cell).collect();
