@@ -1188,30 +1188,7 @@ fn laid_over(below: vec4f, color: vec4f, flags: u32, coverage: f32) -> vec4f {
     return vec4f(max(below.rgb, added), alpha);
 }
 
-fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -> f32 {
-    if (lights[light].shadow_maps == 0u) {
-        return 1.0;
-    }
-    let map = map_of(light, receiver);
-    let to_source = normalize(select(to_light, to_lamp(light, receiver.p_in_world), lights[light].kind == LIGHT_BEAM));
-    let footing = footing_of(map, receiver, to_source);
-    let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
-    let long = select(footing.py, footing.px, is_wide);
-    let short = select(footing.px, footing.py, is_wide);
-    let places = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
-    let is_seen = matters && footing.is_inside;
-    let count = select(0.0, places, is_seen);
-    var sum = 0.0;
-    for (var i = 0.5; i < count; i += 1.0) {
-        let step = long * (i / places - 0.5);
-        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
-        let width = length(vec2f(dot(lit.yz, long) / places, dot(lit.yz, short)));
-        sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
-    }
-    return select(1.0, sum / places, is_seen);
-}
-
-fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
+fn light_at(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
     if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
@@ -1237,6 +1214,37 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
         return LightTerm(falloff * max(dot(normal, to_light), 0.0), to_light);
     }
     return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
+}
+
+fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -> f32 {
+    if (lights[light].shadow_maps == 0u) {
+        return 1.0;
+    }
+    let map = map_of(light, receiver);
+    let to_source = normalize(select(to_light, to_lamp(light, receiver.p_in_world), lights[light].kind == LIGHT_BEAM));
+    let footing = footing_of(map, receiver, to_source);
+    let is_wide = 1.1 * dot(footing.px, footing.px) >= dot(footing.py, footing.py);
+    let long = select(footing.py, footing.px, is_wide);
+    let short = select(footing.px, footing.py, is_wide);
+    let places = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
+    let is_seen = matters && footing.is_inside;
+    let count = select(0.0, places, is_seen);
+    var sum = 0.0;
+    for (var i = 0.5; i < count; i += 1.0) {
+        let step = long * (i / places - 0.5);
+        let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
+        let width = length(vec2f(dot(lit.yz, long) / places, dot(lit.yz, short)));
+        sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
+    }
+    return select(1.0, sum / places, is_seen);
+}
+
+fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
+    if (!PLACED_LIGHTS) {
+        let direction = light.direction.xyz;
+        return LightTerm(dot(normal, direction), direction);
+    }
+    return light_at(light, p_in_world, normal);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
@@ -2452,6 +2460,8 @@ override ON_PANORAMA: bool = false;
 override OUTPUT: u32 = 0u;
 
 override PALETTE: bool = false;
+
+override PLACED_LIGHTS: bool = false;
 
 override PROXY_MESHES: bool = false;
 

@@ -454,11 +454,7 @@ fn is_turned_away(p_px: vec2f) -> bool {
     return dot(textureLoad(normals, texel, 0).xyz, line.to_eye) < 0.0;
 }
 
-fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
-    return light.factors.x * light_term(light, p_in_world, normal).term;
-}
-
-fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
+fn light_at(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     let factors = light.factors;
     let direction = light.direction.xyz;
     if (light.kind == LIGHT_DIRECTIONAL || light.kind == LIGHT_SKY) {
@@ -484,6 +480,10 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
         return LightTerm(falloff * max(dot(normal, to_light), 0.0), to_light);
     }
     return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
+}
+
+fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {
+    return light.factors.x * light_at(light, p_in_world, normal).term;
 }
 
 fn line_depth(frame: Frame, clip: vec4f) -> f32 {

@@ -10,7 +10,7 @@ use crate::render::{
     layouts::Layouts,
     prepare::{
         DrawItem, Prepared,
-        lights::{MAX_LIGHTS, light_count},
+        lights::{MAX_LIGHTS, PlacedLight, light_count},
         shine::Features,
     },
     targets::{PAINT_FORMAT, Targets, paint_samples},
@@ -95,6 +95,7 @@ impl PaintPass {
         let own = light_count(&prepared.lights);
         let lights = (own + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
         let beam_lights = lights - own as u32;
+        let placed_lights = beam_lights > 0 || prepared.lights.iter().any(PlacedLight::has_place);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -120,6 +121,7 @@ impl PaintPass {
                 proxy_meshes,
                 lights,
                 beam_lights,
+                placed_lights,
                 ..Variant::of(item, samples)
             }
         };

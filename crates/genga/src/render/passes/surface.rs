@@ -42,6 +42,8 @@ pub(crate) struct Variant {
     pub(crate) lights: u32,
     /// How many of these, the last ones, are beams'.
     pub(crate) beam_lights: u32,
+    /// Whether any light stands somewhere.
+    pub(crate) placed_lights: bool,
 }
 
 /// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
@@ -118,6 +120,7 @@ impl Variant {
             material: item.look,
             lights: 0,
             beam_lights: 0,
+            placed_lights: false,
         }
     }
 }
@@ -217,6 +220,7 @@ impl SurfacePipelines {
             ("EDITED_SHADING", yes(variant.edited_shading)),
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),
             ("LIGHTS", f64::from(variant.lights)),
+            ("PLACED_LIGHTS", yes(variant.placed_lights)),
             ("BEAM_LIGHTS", f64::from(variant.beam_lights)),
         ];
         let hatch_constants = [

@@ -18,6 +18,13 @@ pub(crate) struct PlacedLight {
     casts_shadow: bool,
 }
 
+impl PlacedLight {
+    /// Whether it shines from a place, and not from a direction.
+    pub(crate) fn has_place(&self) -> bool {
+        matches!(self.kind, LightKind::Point { .. } | LightKind::Spot { .. })
+    }
+}
+
 /// Lights that the shaders take at once.
 pub(crate) const MAX_LIGHTS: usize = 16;
 
