@@ -2,15 +2,15 @@
 
 use std::fmt::Write as _;
 
-use genga::render::View;
+use genga::render::{LayerData, LayerKind, View};
 use genga::scene::{
-    Beam, BeamOrder, BeamShape, BeamTone, Scene, Wave, WaveAnchor, WaveBlend, WaveNoise, WaveOrder,
-    WavePlacement, WaveShape,
+    Beam, BeamOrder, BeamShape, BeamTone, Pose, Scene, Wave, WaveAnchor, WaveBlend, WaveNoise,
+    WaveOrder, WavePlacement, WaveShape,
 };
 use genga::scene_file::SceneFile;
 use genga_tests::waves::cases::{energies, errors, scene_of, shapes, views};
 use genga_tests::{Pixels, draw, ortho_view, style};
-use glam::{Vec3, Vec4};
+use glam::{Affine3A, Vec3, Vec3A, Vec4};
 
 #[test]
 fn noise_along_the_curve_is_that_of_f64() {
@@ -172,4 +172,70 @@ fn ten_thousand_points_are_drawn_or_refused_with_a_sentence() {
     assert!(fault.contains("folds back along its direction at s = "), "{fault}");
     let fault = file("shape = \"bezier\"", &points).expect_err("so many have no Bézier curve");
     assert!(fault.contains("10000 control points"), "{fault}");
+}
+
+#[test]
+fn a_wave_on_a_bone_goes_with_the_clip() {
+    let text = r#"
+version = 1
+[[model]]
+file = "hero.glb"
+translation = [0.2, 0, -0.1]
+rotation_deg = [0, 90, 0]
+[[wave]]
+shape = "sphere"
+from_node = "leftHand"
+from = [0.1, 0.2, 0]
+radius = 0.2
+occluded = false
+"#;
+    let file = SceneFile::from_toml_str(text).expect("the file is right");
+    let hero = |_: &std::path::Path| Ok::<_, String>(genga_tests::scenes::model("hero"));
+    let scene = file.assemble(hero).expect("the bone is there").scene;
+    let clip = scene.find_clip("beam").expect("the hero has it");
+    let bone = scene.nodes.iter().position(|node| node.name == "leftHand").expect("it is there");
+    let height = 2.2;
+    let mut view = View { supersample: 1, ..ortho_view([120, 90], height) };
+    view.camera.world_from_camera = Affine3A::from_translation(Vec3::new(0.5, 1.1, 10.0));
+
+    let (style, shared) = (style(""), genga_tests::shared());
+    let _turn = shared.turn();
+    let renderer = &shared.renderer;
+    let mut prepared = renderer.prepare(&scene, &style).expect("it can be prepared");
+    let mut places = Vec::new();
+    for time in [0.0, 0.45, 0.9] {
+        let pose = Pose::at(&scene, clip, time);
+        renderer.set_pose(&mut prepared, &scene, &pose).expect("the pose fits");
+        // As it was read, then brighter and larger, which does not move it.
+        let mut larger = scene.waves.clone();
+        (larger[0].alpha, larger[0].radius) = (0.4, Some(0.3));
+        let mut sums = Vec::new();
+        for waves in [&scene.waves, &larger] {
+            renderer.set_waves(&mut prepared, waves, scene.wave_method, &pose).expect("they fit");
+            let layers = [LayerKind::Energy];
+            let mut silent = |_, _| {};
+            let picture = renderer.picture(&prepared, &view, &layers, &mut silent);
+            let picture = pollster::block_on(picture).expect("it can be drawn");
+            let LayerData::F32 { values, .. } = &picture.layers[0].data else { panic!() };
+            let (mut sum, mut x, mut y) = (0.0, 0.0, 0.0);
+            for (i, &energy) in values.iter().enumerate() {
+                let energy = f64::from(energy);
+                sum += energy;
+                x += energy * ((i % 120) as f64 + 0.5);
+                y += energy * ((i / 120) as f64 + 0.5);
+            }
+            let hand = pose.world_from_node[bone].translation + Vec3A::new(0.1, 0.2, 0.0);
+            let at = view.camera.world_from_camera.inverse().transform_point3a(hand);
+            let pixel = |metres: f32| f64::from(metres) * 90.0 / f64::from(height);
+            let wanted = [60.0 + pixel(at.x), 45.0 - pixel(at.y)];
+            let off = [x / sum - wanted[0], y / sum - wanted[1]];
+            assert!(off[0].hypot(off[1]) < 0.05, "after {time} s: {off:?} from {wanted:?}");
+            sums.push(sum);
+            places.push(wanted);
+        }
+        assert!(sums[1] > 2.0 * sums[0], "{sums:?}");
+    }
+    let way = (places[0][0] - places[4][0]).hypot(places[0][1] - places[4][1]);
+    assert!(way > 5.0, "the clip moves the hand, {way} px");
+    assert_eq!(shared.gpu.take_fault(), None, "the driver complained");
 }

@@ -254,10 +254,11 @@ pub enum WaveMethod {
 /// How a wave moves. `Wave` itself is one moment; [`WaveMotion::at`] makes it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaveMotion {
-    /// Parts of the curve per second that the head goes forward from `growth[0]`; 0 keeps
-    /// `growth`.
+    /// Parts of the curve per second that the head goes forward from `growth[0]`, and nothing is
+    /// there before the time 0; 0 keeps `growth`.
     pub head_speed: f32,
-    /// Seconds after which the tail follows at the same speed; 0 for never.
+    /// Seconds after which the tail follows at the same speed; 0 for never. Once the head has
+    /// arrived, the wave fades in proportion to what is left of it.
     pub duration: f32,
     /// Metres per second along the world's axes.
     pub velocity: Vec3,
@@ -276,9 +277,16 @@ impl WaveMotion {
         if self.head_speed > 0.0 {
             let gone = |t: f32| (tail + self.head_speed * t.max(0.0)).clamp(tail, head.max(tail));
             wave.growth[1] = gone(time);
+            let mut left = if time < 0.0 { 0.0 } else { 1.0 };
             if self.duration > 0.0 {
                 wave.growth[0] = gone(time - self.duration);
+                let shot = (self.head_speed * self.duration).min(head - tail);
+                if wave.growth[1] >= head && shot > 0.0 {
+                    left = ((head - wave.growth[0]) / shot).min(1.0);
+                }
             }
+            wave.alpha *= left;
+            wave.swell = wave.swell.map(|alpha| alpha * left);
         }
         let (moved, turned) = (self.velocity * time, self.spin * time);
         match &mut wave.placement {

@@ -121,4 +121,10 @@ fn motion_grows_moves_and_turns() {
     let WavePlacement::At { anchor, roll, .. } = wave.placement else { panic!() };
     assert_eq!((anchor.offset, roll), (Vec3::X * 1.5, 3.0));
     assert_eq!(motion.at(&of(WaveShape::Sphere), 100.0).growth, [1.0, 1.0]);
+    // A shot is not there before it begins, whole on its way, half when half of it has arrived.
+    let shot = Wave { swell: [0.0, 0.4], ..of(WaveShape::Capsule { length: 1.0 }) };
+    for (time, left) in [(-0.1, 0.0), (0.5, 1.0), (2.0, 1.0), (2.5, 0.5), (3.0, 0.0), (9.0, 0.0)] {
+        let now = motion.at(&shot, time);
+        assert_eq!((now.alpha, now.swell), (0.2 * left, [0.0, 0.4 * left]), "after {time} s");
+    }
 }

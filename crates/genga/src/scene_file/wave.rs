@@ -141,10 +141,11 @@ fn one_octave() -> u32 {
 #[schemars(rename = "WaveMotion")]
 struct Motion {
     /// Parts of the curve per second that the head goes forward, from the first to the second
-    /// number of 'growth'.
+    /// number of 'growth'. Before the time 0 nothing is there.
     #[schemars(range(min = 0, max = 1e6))]
     head_speed: f32,
-    /// Seconds after which the tail follows; 0 for never.
+    /// Seconds after which the tail follows, and the wave fades as it comes near the head; 0 for
+    /// never.
     #[schemars(range(min = 0, max = 1e6))]
     duration: f32,
     /// Metres per second along the scene's axes.
@@ -168,7 +169,8 @@ pub(super) struct Written {
     name: String,
     /// What curve it follows.
     shape: Kind,
-    /// Cylinder, capsule, helix and trig: length in metres.
+    /// Cylinder, capsule, helix and trig: length in metres; not needed where it has an end, to which
+    /// it is stretched.
     length: Option<f32>,
     /// Helix: its radius in metres.
     helix_radius: Option<f32>,
@@ -253,7 +255,8 @@ pub(super) struct Written {
     /// How it moves.
     #[serde(default)]
     motion: Motion,
-    /// The moment of the motion in seconds.
+    /// The moment of the motion in seconds, to which that of a frame is added: below 0 it begins so
+    /// much later.
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     time: f32,
@@ -399,14 +402,18 @@ impl Written {
         if let Some((key, _)) = given.iter().find(|(key, is)| *is && !allowed.contains(key)) {
             return Err(format!("must not have '{key}': a {name} has none"));
         }
-        let length = || self.length.ok_or_else(|| format!("must have a 'length', as a {name}"));
+        // Stretching makes any length the right one.
+        let is_between = self.to.is_some() || self.to_node.is_some();
+        let given_length = self.length.or(is_between.then_some(1.0));
+        let length =
+            || given_length.ok_or_else(|| format!("must have a 'length' or an end, as a {name}"));
         let points = || match &self.points {
             Some(points) => Ok(points.iter().map(|&p| Vec3::from(p)).collect::<Vec<_>>()),
             None => Err(format!("must have 'points', as a {name}")),
         };
         Ok(match self.shape {
             Kind::Sphere => WaveShape::Sphere,
-            Kind::Cylinder => WaveShape::Cylinder { length: self.length },
+            Kind::Cylinder => WaveShape::Cylinder { length: given_length },
             Kind::Capsule => WaveShape::Capsule { length: length()? },
             Kind::Helix => WaveShape::Helix {
                 length: length()?,

@@ -43,6 +43,18 @@ points = 100
 }
 
 #[test]
+fn what_is_stretched_needs_no_length() {
+    for shape in ["cylinder", "capsule", "helix\"\nhelix_radius = 0.1 #", "trig"] {
+        let text = format!("version = 1\n[[wave]]\nshape = \"{shape}\"\nto = [0, 3, 0]\n");
+        let file = SceneFile::from_toml_str(&text).expect("the end is given");
+        let assembled = file.assemble(|_| Ok::<_, String>(Scene::default())).expect("no names");
+        let places = assembled.scene.waves[0].places(&assembled.pose, 3);
+        let gap = (places[2] - places[0]).y;
+        assert!((gap - 3.0).abs() < 1e-5, "{shape}: {gap}");
+    }
+}
+
+#[test]
 fn wrong_waves_are_shown_at_their_place() {
     for (keys, part) in [
         ("shape = \"sphere\"\nlength = 1", "a sphere has none"),
