@@ -175,6 +175,27 @@ fn ten_thousand_points_are_drawn_or_refused_with_a_sentence() {
 }
 
 #[test]
+fn sums_may_have_hundreds_of_terms() {
+    let [(_, view), ..] = views([160, 160]);
+    let drawn = |turns: f32, y: Vec<[f32; 2]>| {
+        let shape = WaveShape::Trig { length: 4.0, turns, y, z: Vec::new() };
+        let wave = Wave { shape, core: 0.05, radius: Some(0.3), ..Wave::default() };
+        energies(&scene_of(&[wave]), &view)
+    };
+    // The twentieth of 300 terms over one turn is the first one over twenty turns.
+    let mut terms = vec![[0.0, 0.0]; 300];
+    terms[19] = [0.4, 0.0];
+    let (found, wanted) = (drawn(1.0, terms), drawn(20.0, vec![[0.4, 0.0]]));
+    let peak = wanted.iter().copied().fold(0.0, f32::max);
+    assert!(peak > 0.0, "nothing is drawn");
+    for (i, (a, b)) in found.iter().zip(&wanted).enumerate() {
+        // Both may be off by a percent.
+        let allowed = 0.02 * b.max(peak / 100.0);
+        assert!((a - b).abs() <= allowed, "at {}, {}: {a}, {b}", i % 160, i / 160);
+    }
+}
+
+#[test]
 fn a_wave_on_a_bone_goes_with_the_clip() {
     let text = r#"
 version = 1

@@ -139,8 +139,10 @@ impl Wave {
                 length(*l)?;
                 turning(*turns)?;
                 let mut terms = y.iter().chain(z).flatten();
-                if !terms.all(|t| t.abs() <= LARGEST) || y.len().max(z.len()) > 64 {
-                    return Err("has over 64 terms on an axis, or one that is no number".to_owned());
+                if !terms.all(|t| t.abs() <= LARGEST) || y.len().max(z.len()) > MAX_POINTS {
+                    return Err(format!(
+                        "has over {MAX_POINTS} terms on an axis, or one that is no number"
+                    ));
                 }
                 Ok(())
             }
