@@ -171,3 +171,17 @@ fn two_threads_may_draw_at_once() {
         }
     });
 }
+
+#[test]
+fn a_large_picture_of_a_figure_is_the_same_again() {
+    // As many lines as a page has: none may be lost by the order in which they are found.
+    let scene = model("hero");
+    let style = Style::preset("blueprint").expect("it is a preset");
+    let view = View { supersample: 1, ..orbit_view(&scene, &Orbit::default(), [1200, 1200]) };
+    let draw = || layered(&scene, &style, &view, 4096, &[]).rgba;
+    let first = draw();
+    for _ in 0..2 {
+        let differ = first.iter().zip(draw()).filter(|(a, b)| **a != *b).count();
+        assert_eq!(differ, 0, "values differ");
+    }
+}
