@@ -227,7 +227,7 @@ fn collect_list(square: u32, rays: Rays) {
     begin_layers();
     var at = first + LIST_HEAD;
     let last = at + left;
-    while ((at < last)) {
+    loop {
         let header = lists[at];
         let wave = header & 255u;
         var ends = (header >> 8u) & 15u;
@@ -237,18 +237,31 @@ fn collect_list(square: u32, rays: Rays) {
         let b = wave_ray(wave, rays.second, far_end(wave, rays.surfaces.y), vec2f(0.0));
         let numbers = ray_wave(wave);
         var energies = vec2f(0.0);
-        while ((at < nodes_end)) {
-            at += 1u;
-            energies += node_energies(lists[at], numbers, a, b);
+        loop {
+            if (at < nodes_end) {
+                at += 1u;
+                energies += node_energies(lists[at], numbers, a, b);
+            }
+            if (at >= nodes_end) {
+                break;
+            }
         }
-        while ((ends != 0u)) {
-            let end = firstTrailingBit(ends);
-            ends &= ends - 1u;
-            let place = end_place(end, wave);
-            energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
+        loop {
+            if (ends != 0u) {
+                let end = firstTrailingBit(ends);
+                ends &= ends - 1u;
+                let place = end_place(end, wave);
+                energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
+            }
+            if (ends == 0u) {
+                break;
+            }
         }
         add_energies(wave, energies);
         at += 1u;
+        if (at >= last) {
+            break;
+        }
     }
 }
 
@@ -294,7 +307,8 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
     let cuts = ceil(clamp(fades, 1.0, MAX_CUTS));
     var energy = 0.0;
     var t0 = range.x;
-    for (var i = 1.0; i <= cuts; i += 1.0) {
+    var i = 1.0;
+    loop {
         let t1 = mix(range.x, range.y, i / cuts);
         let weights = place.w * fading(wave, ray.middle + t0, ray.middle + t1);
         let a = away + (t0 - nearest) * ray.direction;
@@ -302,6 +316,10 @@ fn end_energy(end: u32, place: vec4f, wave: RayWave, ray: WaveRay) -> f32 {
         let squares = vec3f(dot(a, a), dot(b, b), (t1 - t0) * (t1 - t0));
         energy += piece_energy(squares, dot(a, b), away2 * squares.z, weights, t1 - t0, vec2f(core), rim);
         t0 = t1;
+        i += 1.0;
+        if (i > cuts) {
+            break;
+        }
     }
     return energy;
 }
@@ -416,18 +434,21 @@ fn far_end(wave: u32, surface: f32) -> f32 {
 }
 
 fn finish_layers(places: vec4u, next: u32) {
-    while ((layer < next)) {
-        if (samples) {
+    if (samples) {
+        while ((layer < next)) {
             patches[places.x + layer * PATCH_RAYS] = vec4f(first_glow, totals.x);
             patches[places.z + layer * PATCH_RAYS] = vec4f(second_glow, totals.y);
+            first_glow = vec3f(0.0);
+            second_glow = vec3f(0.0);
+            layer += 1u;
         }
-        else {
-            textureStore(glow, places.xy, layer, vec4f(first_glow, 0.0));
-            textureStore(glow, places.zw, layer, vec4f(second_glow, 0.0));
-        }
+    }
+    else if (layer < next) {
+        textureStore(glow, places.xy, layer, vec4f(first_glow, 0.0));
+        textureStore(glow, places.zw, layer, vec4f(second_glow, 0.0));
         first_glow = vec3f(0.0);
         second_glow = vec3f(0.0);
-        layer += 1u;
+        layer = next;
     }
 }
 
@@ -498,7 +519,8 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
     var q = spaced.first;
     var energy = 0.0;
     var t0 = range.x;
-    for (var i = 1.0; i <= cuts; ) {
+    var i = 1.0;
+    loop {
         let next = q + step;
         var t1 = select(nearest + next * (abs(next) + 2.0 * spaced.root), range.y, i == cuts);
         let is_bound = core_grows && t0 < bound && bound < t1;
@@ -538,6 +560,9 @@ fn node_energy(nx: vec4f, ny: vec4f, nz: vec4f, wave: RayWave, ray: WaveRay) -> 
             energy += piece_energy(squares, dot(a, b), side2, weights, t.y - t.x, cores, rim);
         }
         t0 = t1;
+        if (i > cuts) {
+            break;
+        }
     }
     return energy;
 }
@@ -755,40 +780,52 @@ fn walk_square(square: u32, rays: Rays) {
     let middle = square_ray(corner, level.side);
     let surfaces = square_surfaces(corner, middle);
     begin_layers();
-    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
+    var wave = 0u;
+    loop {
         let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
         let seen = select(vec2f(1e30), surfaces, is_occluded);
         let of_square = wave_ray(wave, middle.ray, seen.y, middle.spread);
-        if (of_square.low >= of_square.high) {
-            continue;
-        }
-        finish_layers(rays.places, waves[wave].layer);
-        let a = wave_ray(wave, rays.first, far_end(wave, rays.surfaces.x), vec2f(0.0));
-        let b = wave_ray(wave, rays.second, far_end(wave, rays.surfaces.y), vec2f(0.0));
-        let numbers = ray_wave(wave);
-        let leaves = waves[wave].leaves;
-        let root = waves[wave].node_first;
-        var energies = vec2f(0.0);
-        var node = select(0u, 1u, leaves > 0u);
-        while ((node != 0u)) {
-            let found = node_fits(root + node, numbers, of_square, middle.spread, seen.x);
-            let is_missed = found.fit == NODE_MISSED;
-            let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
-            if (is_used) {
-                energies += node_energies(root + node, numbers, a, b);
+        if (of_square.low < of_square.high) {
+            finish_layers(rays.places, waves[wave].layer);
+            let a = wave_ray(wave, rays.first, far_end(wave, rays.surfaces.x), vec2f(0.0));
+            let b = wave_ray(wave, rays.second, far_end(wave, rays.surfaces.y), vec2f(0.0));
+            let numbers = ray_wave(wave);
+            let leaves = waves[wave].leaves;
+            let root = waves[wave].node_first;
+            var energies = vec2f(0.0);
+            var node = select(0u, 1u, leaves > 0u);
+            loop {
+                let found = node_fits(root + node, numbers, of_square, middle.spread, seen.x);
+                let is_missed = node == 0u || found.fit == NODE_MISSED;
+                let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
+                if (is_used) {
+                    energies += node_energies(root + node, numbers, a, b);
+                }
+                node = select(2u * node, next_node(node), is_used || is_missed);
+                node = select(node, 0u, node == 1u);
+                if (node == 0u) {
+                    break;
+                }
             }
-            node = select(2u * node, next_node(node), is_used || is_missed);
-            node = select(node, 0u, node == 1u);
-        }
-        let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
-        for (var end = first_end; end < 4u; end++) {
-            let place = end_place(end, wave);
-            let found = end_fits(end, place, numbers, of_square, middle.spread, seen.x);
-            if (found.fit != NODE_MISSED) {
-                energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
+            let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
+            var end = first_end;
+            loop {
+                let place = end_place(end, wave);
+                let found = end_fits(end, place, numbers, of_square, middle.spread, seen.x);
+                if (found.fit != NODE_MISSED) {
+                    energies += vec2f(end_energy(end, place, numbers, a), end_energy(end, place, numbers, b));
+                }
+                end += 1u;
+                if (end >= 4u) {
+                    break;
+                }
             }
+            add_energies(wave, energies);
         }
-        add_energies(wave, energies);
+        wave += 1u;
+        if (wave >= MAX_WAVES || (waves[wave].flags & WAVE_USED) == 0u) {
+            break;
+        }
     }
 }
 
@@ -824,35 +861,53 @@ fn within_radius(start: vec2f, change: vec2f, radius: f32) -> vec2f {
 @compute @workgroup_size(64)
 fn sample_patches(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     const PAIRS: u32 = PATCH_RAYS / 2u;
-    for (var i = id.x; i < PAIRS * squares[3]; i += groups.x * 64u) {
-        let square = squares[4u + i / PAIRS];
-        let ray = i % PAIRS;
-        let first = (level.patch_first + square) * view.layers * PATCH_RAYS + ray;
-        let rays = Rays(patch_ray(square, ray), patch_ray(square, ray + PAIRS), vec2f(1e30), vec4u(first, 0u, first + PAIRS, 0u));
-        collect_list(square, rays);
-        finish_layers(rays.places, lists[square * level.stride + 3u]);
+    let count = PAIRS * squares[3];
+    var i = id.x;
+    loop {
+        if (i < count) {
+            let square = squares[4u + i / PAIRS];
+            let ray = i % PAIRS;
+            let first = (level.patch_first + square) * view.layers * PATCH_RAYS + ray;
+            let rays = Rays(patch_ray(square, ray), patch_ray(square, ray + PAIRS), vec2f(1e30), vec4u(first, 0u, first + PAIRS, 0u));
+            collect_list(square, rays);
+            finish_layers(rays.places, lists[square * level.stride + 3u]);
+        }
+        i += groups.x * 64u;
+        if (i >= count) {
+            break;
+        }
     }
 }
 
 @compute @workgroup_size(8, 4)
 fn collect_energy(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
     var i = square_of_group(group.x, 0u, PIXELS_OF_GROUP);
-    for (var n = 1u; i < squares[3]; n++) {
+    var n = 1u;
+    loop {
         let square = squares[4u + i];
         let rays = pixel_rays(square, group.y, local_id.xy);
         collect_list(square, rays);
         finish_pixels(rays.places);
         i = square_of_group(group.x, n, PIXELS_OF_GROUP);
+        n += 1u;
+        if (i >= squares[3]) {
+            break;
+        }
     }
 }
 
 @compute @workgroup_size(8, 4)
 fn collect_full(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
-    for (var i = group.x; i < squares[3]; i += 65535u) {
+    var i = group.x;
+    loop {
         let square = squares[4u + i];
         let rays = pixel_rays(square, group.y, local_id.xy);
         walk_square(square, rays);
         finish_pixels(rays.places);
+        i += 65535u;
+        if (i >= squares[3]) {
+            break;
+        }
     }
 }
 

@@ -134,6 +134,38 @@ fn row(p: u32, least: ptr<function, f32>) -> mat4x4f {
     return cubic(a, b, c, d);
 }
 
+fn sort_square(square: u32) {
+    let layers = lists[square * level.stride + 3u];
+    var is_smooth = true;
+    most = 0.0;
+    var layer = 0u;
+    loop {
+        let fits = fit_patch(square, layer);
+        is_smooth = is_smooth && fits;
+        layer += 1u;
+        if (layer >= layers) {
+            break;
+        }
+    }
+    if (most <= 0.0) {
+        return;
+    }
+    if (is_smooth) {
+        let at = atomicAdd(&smooth_squares.count, 1u);
+        smooth_squares.squares[at] = (square << 8u) | (firstTrailingBit(level.side) << 4u) | layers;
+        atomicMax(&smooth_squares.groups, groups_of(at + 1u, PATCHES_OF_GROUP));
+        smooth_squares.rows = 1u;
+        smooth_squares.layers = 1u;
+    }
+    else {
+        let at = atomicAdd(&left_squares.count, 1u);
+        left_squares.squares[at] = square;
+        atomicMax(&left_squares.groups, min((4u * at + 67u) / 64u, 65535u));
+        left_squares.rows = 1u;
+        left_squares.layers = 1u;
+    }
+}
+
 fn store(p: u32, column: mat4x4f) {
     patches[p] = column[0];
     patches[p + 1u] = column[1];
@@ -143,31 +175,14 @@ fn store(p: u32, column: mat4x4f) {
 
 @compute @workgroup_size(64)
 fn fit_patches(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var i = id.x; i < squares[3]; i += groups.x * 64u) {
-        let square = squares[4u + i];
-        let layers = lists[square * level.stride + 3u];
-        var is_smooth = true;
-        most = 0.0;
-        for (var layer = 0u; layer < layers; layer++) {
-            let fits = fit_patch(square, layer);
-            is_smooth = is_smooth && fits;
+    var i = id.x;
+    loop {
+        if (i < squares[3]) {
+            sort_square(squares[4u + i]);
         }
-        if (most <= 0.0) {
-            continue;
-        }
-        if (is_smooth) {
-            let at = atomicAdd(&smooth_squares.count, 1u);
-            smooth_squares.squares[at] = (square << 8u) | (firstTrailingBit(level.side) << 4u) | layers;
-            atomicMax(&smooth_squares.groups, groups_of(at + 1u, PATCHES_OF_GROUP));
-            smooth_squares.rows = 1u;
-            smooth_squares.layers = 1u;
-        }
-        else {
-            let at = atomicAdd(&left_squares.count, 1u);
-            left_squares.squares[at] = square;
-            atomicMax(&left_squares.groups, min((4u * at + 67u) / 64u, 65535u));
-            left_squares.rows = 1u;
-            left_squares.layers = 1u;
+        i += groups.x * 64u;
+        if (i >= squares[3]) {
+            break;
         }
     }
 }

@@ -65,14 +65,16 @@ fn draw_patch(square: u32, side: u32, layer: u32, layers: u32, local_id: vec2u) 
     let corner = square_corner(square, level.across, side);
     let scale = 2.0 / f32(side);
     let is_last = layer + 1u == layers;
-    for (var dx = 0u; dx < side; dx += 8u) {
+    var dx = 0u;
+    loop {
         let x = scale * (f32(dx + local_id.x) + 0.5) - 1.0;
         let p0 = c0[0] + x * (c1[0] + x * (c2[0] + x * c3[0]));
         let p1 = c0[1] + x * (c1[1] + x * (c2[1] + x * c3[1]));
         let p2 = c0[2] + x * (c1[2] + x * (c2[2] + x * c3[2]));
         let p3 = c0[3] + x * (c1[3] + x * (c2[3] + x * c3[3]));
         let powers = mat4x4f(p0, p1, p2, p3);
-        for (var dy = 0u; dy < side; dy += 4u) {
+        var dy = 0u;
+        loop {
             let pixel = corner + vec2u(dx, dy) + local_id - view.tile_origin;
             let y = scale * (f32(dy + local_id.y) + 0.5) - 1.0;
             let value = max(at_power(powers, y), vec4f(0.0));
@@ -80,6 +82,14 @@ fn draw_patch(square: u32, side: u32, layer: u32, layers: u32, local_id: vec2u) 
             if (is_last && keeps_energy) {
                 textureStore(energy_target, pixel, vec4f(value.w, 0.0, 0.0, 0.0));
             }
+            dy += 4u;
+            if (dy >= side) {
+                break;
+            }
+        }
+        dx += 8u;
+        if (dx >= side) {
+            break;
         }
     }
 }
@@ -95,14 +105,24 @@ fn square_of_group(group: u32, n: u32, share: u32) -> u32 {
 @compute @workgroup_size(8, 4)
 fn draw_patches(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local_id: vec3u) {
     var i = square_of_group(group.x, 0u, PATCHES_OF_GROUP);
-    for (var n = 1u; i < squares[3]; n++) {
+    var n = 1u;
+    loop {
         let entry = squares[4u + i];
         let side = 1u << ((entry >> 4u) & 15u);
         let layers = entry & 15u;
-        for (var layer = 0u; layer < layers; layer++) {
+        var layer = 0u;
+        loop {
             draw_patch(entry >> 8u, side, layer, layers, local_id.xy);
+            layer += 1u;
+            if (layer >= layers) {
+                break;
+            }
         }
         i = square_of_group(group.x, n, PATCHES_OF_GROUP);
+        n += 1u;
+        if (i >= squares[3]) {
+            break;
+        }
     }
 }
 

@@ -268,54 +268,66 @@ fn list_square(square: u32) {
     var brightest = 0.0;
     var is_given_up = false;
     var is_rim = true;
-    for (var wave = 0u; wave < MAX_WAVES && (waves[wave].flags & WAVE_USED) != 0u; wave++) {
+    var wave = 0u;
+    loop {
         let is_occluded = (waves[wave].flags & WAVE_OCCLUDED) != 0u;
         let seen = select(vec2f(1e30), surfaces, is_occluded);
         let local = wave_ray(wave, middle.ray, seen.y, middle.spread);
-        if (local.low >= local.high || is_given_up) {
-            continue;
-        }
-        let head = end;
-        end += 1u;
-        let numbers = ray_wave(wave);
-        let leaves = waves[wave].leaves;
-        let root = waves[wave].node_first;
-        var node = select(0u, 1u, leaves > 0u);
-        while ((node != 0u)) {
-            let found = node_fits(root + node, numbers, local, middle.spread, seen.x);
-            let is_missed = found.fit == NODE_MISSED;
-            let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
-            if (is_used) {
-                if (end <= last) {
-                    lists[end] = root + node;
+        if (local.low < local.high && !is_given_up) {
+            let head = end;
+            end += 1u;
+            let numbers = ray_wave(wave);
+            let leaves = waves[wave].leaves;
+            let root = waves[wave].node_first;
+            var node = select(0u, 1u, leaves > 0u);
+            loop {
+                let found = node_fits(root + node, numbers, local, middle.spread, seen.x);
+                let is_missed = node == 0u || found.fit == NODE_MISSED;
+                let is_used = !is_missed && (found.fit != NODE_TOO_COARSE || node >= leaves);
+                if (is_used) {
+                    if (end <= last) {
+                        lists[end] = root + node;
+                    }
+                    end += 1u;
+                    is_rim = is_rim && found.is_rim;
                 }
-                end += 1u;
-                is_rim = is_rim && found.is_rim;
+                is_given_up = is_used && is_coarse && (found.is_rough || end > last + 1u);
+                node = select(2u * node, next_node(node), is_used || is_missed);
+                node = select(node, 0u, node == 1u || is_given_up);
+                if (node == 0u) {
+                    break;
+                }
             }
-            is_given_up = is_used && is_coarse && (found.is_rough || end > last + 1u);
-            node = select(2u * node, next_node(node), is_used || is_missed);
-            node = select(node, 0u, node == 1u || is_given_up);
-        }
-        var ends = 0u;
-        let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
-        for (var i = first_end; i < 4u; i++) {
-            let found = end_fits(i, end_place(i, wave), numbers, local, middle.spread, seen.x);
-            if (found.fit != NODE_MISSED) {
-                ends |= 1u << i;
-                is_rim = false;
-                is_given_up |= is_coarse && found.is_rough;
+            var ends = 0u;
+            let first_end = select(2u, 0u, (waves[wave].flags & WAVE_ENDS) != 0u);
+            var i = first_end;
+            loop {
+                let found = end_fits(i, end_place(i, wave), numbers, local, middle.spread, seen.x);
+                if (found.fit != NODE_MISSED) {
+                    ends |= 1u << i;
+                    is_rim = false;
+                    is_given_up |= is_coarse && found.is_rough;
+                }
+                i += 1u;
+                if (i >= 4u) {
+                    break;
+                }
+            }
+            let count = end - head - 1u;
+            if (count + ends == 0u) {
+                end = head;
+            }
+            else {
+                if (head <= last) {
+                    lists[head] = wave | (ends << 8u) | (min(count, 65535u) << 12u);
+                }
+                tolerance = min(tolerance, waves[wave].tolerance);
+                brightest = max(brightest, max(waves[wave].alpha, max(waves[wave].swell.x, waves[wave].swell.y)));
             }
         }
-        let count = end - head - 1u;
-        if (count + ends == 0u) {
-            end = head;
-        }
-        else {
-            if (head <= last) {
-                lists[head] = wave | (ends << 8u) | (min(count, 65535u) << 12u);
-            }
-            tolerance = min(tolerance, waves[wave].tolerance);
-            brightest = max(brightest, max(waves[wave].alpha, max(waves[wave].swell.x, waves[wave].swell.y)));
+        wave += 1u;
+        if (wave >= MAX_WAVES || (waves[wave].flags & WAVE_USED) == 0u) {
+            break;
         }
     }
     is_given_up |= is_coarse && is_rim && end > first + LIST_HEAD;
@@ -514,7 +526,9 @@ fn wave_ray(wave: u32, ray: ViewRay, far: f32, spread: vec2f) -> WaveRay {
 
 @compute @workgroup_size(64)
 fn list_quarters(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
-    for (var i = id.x; i < 4u * parents[3]; i += groups.x * 64u) {
+    let count = 4u * parents[3];
+    var i = id.x;
+    loop {
         let parent = parents[4u + i / 4u];
         let side = 2u * level.side;
         let last = view.tile_origin.x + view.tile_size.x - 1u;
@@ -522,8 +536,12 @@ fn list_quarters(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgrou
         let quarter = vec2u(i & 1u, (i >> 1u) & 1u);
         let corner = square_corner(parent, parents_across, side) + level.side * quarter;
         let place = corner / level.side - view.tile_origin / level.side;
-        if (all(place < vec2u(level.across, level.down))) {
+        if (i < count && all(place < vec2u(level.across, level.down))) {
             list_square(place.x + place.y * level.across);
+        }
+        i += groups.x * 64u;
+        if (i >= count) {
+            break;
         }
     }
 }
