@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use genga::render::{Orbit, ViewCamera};
-use genga::scene::{Beam, BeamMotion, Pose, Scene, Wave, WaveMotion};
+use genga::scene::{Beam, BeamMotion, Pose, Projection, Scene, Wave, WaveMotion};
 use genga::scene_file::{Picture, SceneCamera, SceneFile};
 use genga::style::{Motion, Style};
 use glam::Vec3;
@@ -214,6 +214,30 @@ impl Source {
             )));
         }
         Ok(points)
+    }
+
+    /// Says which waves a camera does not see since they lie beyond their reach.
+    pub(crate) fn warn_of_reach(&self, camera: &ViewCamera, pose: &Pose, console: &Console) {
+        let from_world = camera.world_from_camera.inverse();
+        let distance = |place: &Vec3| {
+            let seen = from_world.transform_point3(*place);
+            match camera.projection {
+                Projection::Perspective { .. } => seen.length(),
+                Projection::Orthographic { .. } => -seen.z,
+            }
+        };
+        for wave in &self.scene.waves {
+            let Some(radius) = wave.radius else { continue };
+            let places = wave.places(pose, 65);
+            let nearest = places.iter().map(distance).fold(f32::INFINITY, f32::min);
+            if nearest - radius > wave.reach {
+                console.warning(&one_line(&format!(
+                    "{}: wave '{}' is {nearest:.0} m away from the camera, but it shines only up to \
+                     its reach of {} m: give it a larger 'reach', or place the camera nearer to it",
+                    self.name, wave.name, wave.reach
+                )));
+            }
+        }
     }
 
     /// The camera of the model with that name or number.

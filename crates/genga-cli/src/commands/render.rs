@@ -130,7 +130,11 @@ impl Shoot<'_> {
             saver.check(&target, &layers, &inputs)?;
             let seconds = self.moments.seconds(frame);
             let pose = graphics.set_moment(&mut prepared, source, seconds, &style.style)?;
-            let view = view::view(&args.picture, source, self.camera(&pose, &points)?, frame);
+            let camera = self.camera(&pose, &points)?;
+            if i == 0 {
+                source.warn_of_reach(&camera, &pose, console);
+            }
+            let view = view::view(&args.picture, source, camera, frame);
             if args.dump_keys {
                 keys::print(&source.name, frame, &prepared, &view)?;
             }

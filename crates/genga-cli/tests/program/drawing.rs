@@ -187,3 +187,22 @@ fn highlights_are_drawn_and_their_keys_printed() {
     let both = ["render", "shot.scene.toml", "--dump-keys", "-o", "-"];
     genga(here.path(), &both).fails(2, &["standard output"]);
 }
+
+#[test]
+fn a_wave_that_is_too_far_away_to_shine_is_named() {
+    let shot = |reach: &str| {
+        let scene = format!(
+            "version = 1\n[[wave]]\nname = \"far\"\nshape = \"sphere\"\nradius = 1e6\n{reach}"
+        );
+        let here = folder(&[("far.scene.toml", scene.as_bytes())]);
+        let args = ["render", "far.scene.toml", "-o", "far.png", "--size", "32x32"];
+        genga(here.path(), &args).ok().stderr
+    };
+    let said = shot("");
+    assert!(
+        said.contains("warning: far: wave 'far'") && said.contains("reach of 1000 m"),
+        "{said}"
+    );
+    let said = shot("reach = 1e9");
+    assert!(!said.contains("warning"), "{said}");
+}

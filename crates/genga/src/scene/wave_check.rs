@@ -138,10 +138,16 @@ impl Wave {
             WaveShape::Trig { length: l, turns, y, z } => {
                 length(*l)?;
                 turning(*turns)?;
-                let mut terms = y.iter().chain(z).flatten();
-                if !terms.all(|t| t.abs() <= LARGEST) || y.len().max(z.len()) > MAX_POINTS {
+                let count = y.len().max(z.len());
+                if count > MAX_POINTS {
                     return Err(format!(
-                        "has over {MAX_POINTS} terms on an axis, or one that is no number"
+                        "has {count} terms on an axis: it can have up to {MAX_POINTS}"
+                    ));
+                }
+                let mut terms = y.iter().chain(z).flatten();
+                if let Some(term) = terms.find(|t| t.is_nan() || t.abs() > LARGEST) {
+                    return Err(format!(
+                        "has the term {term}: its numbers must be −{LARGEST} to {LARGEST}"
                     ));
                 }
                 Ok(())
