@@ -44,7 +44,10 @@ enum Task {
         update: bool,
     },
     /// Run the long proofs
-    Verify,
+    Verify {
+        /// Which, such as waves; all if nothing is named
+        parts: Vec<String>,
+    },
     /// Run the fuzz targets
     Fuzz {
         /// Only this one
@@ -90,9 +93,10 @@ fn run(task: Task) -> Result<()> {
         Task::Test => check::test(root),
         Task::Gallery { parts } => gallery::gallery(root, &parts),
         Task::Snapshots { update } => snapshots::snapshots(root, update),
-        Task::Verify => {
-            let arguments = ["run", "--release", "--package", "genga-tests", "--bin", "verify"];
-            process::run(process::cargo(root).args(arguments))
+        Task::Verify { parts } => {
+            let arguments =
+                ["run", "--release", "--package", "genga-tests", "--bin", "verify", "--"];
+            process::run(process::cargo(root).args(arguments).args(parts))
         }
         Task::Fuzz { target, seconds } => fuzz::fuzz(root, target.as_deref(), seconds),
         Task::Shaders { check } => shaders(root, check),

@@ -22,7 +22,11 @@ fn what_cannot_be_drawn_gets_a_sentence() {
         let (points, knots) = (points(&[0.0, 1.0, 2.0, 3.0]), knots.to_vec());
         of(WaveShape::BSpline { points, order, knots })
     };
+    let sums = |y| of(WaveShape::Trig { length: 4.0, turns: 1.0, y, z: Vec::new() });
     let cases = [
+        (sums(vec![[0.1, 0.0], [1e7, 0.0]]), "term 10000000"),
+        (sums(vec![[f32::NAN, 0.0]]), "term NaN"),
+        (sums(vec![[0.0, 0.1]; 10_001]), "10001 terms"),
         (of(WaveShape::Capsule { length: 0.0 }), "length 0"),
         (of(WaveShape::Capsule { length: f32::NAN }), "length NaN"),
         (Wave { alpha: f32::NAN, ..Wave::default() }, "alpha NaN"),
