@@ -93,6 +93,10 @@ pub(crate) struct BenchArgs {
     #[arg(long, value_name = "WxH", value_parser = values::size)]
     pub(crate) size: Option<[u32; 2]>,
 
+    /// Of the workload waves only this curve
+    #[arg(long, value_parser = ["helix", "trig", "bezier", "b-spline"])]
+    pub(crate) curve: Option<String>,
+
     /// Samples per pixel along each axis, 1 to 4
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=4))]

@@ -47,7 +47,7 @@ pub(crate) fn run(args: &BenchArgs, console: &Console) -> Outcome {
                 lines.push(cost);
             }
             Job::Waves => {
-                report.waves = Some(waves::measure(runs, args.size, &graphics, console)?);
+                report.waves = Some(waves::measure(args, &graphics, console)?);
                 step(runs);
             }
             Job::Import { triangles } => {

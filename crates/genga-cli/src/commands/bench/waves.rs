@@ -7,6 +7,7 @@ use glam::{Affine3A, Vec3};
 use serde::Serialize;
 
 use super::sample::Samples;
+use crate::args::BenchArgs;
 use crate::console::Console;
 use crate::failure::Outcome;
 use crate::gpu::Graphics;
@@ -50,19 +51,20 @@ struct Row {
     p99_error: Option<f64>,
 }
 
-/// Measures everything. `size` leaves only pictures of that size.
+/// Measures everything, or only pictures of the size and the curve that are asked for.
 pub(super) fn measure(
-    runs: usize,
-    size: Option<[u32; 2]>,
+    args: &BenchArgs,
     graphics: &Graphics,
     console: &Console,
 ) -> Outcome<WaveReport> {
     let clock = if graphics.gpu.is_software() { "wall" } else { "gpu" };
+    let (runs, size) = (args.runs as usize, args.size);
     let mut bench = Bench { graphics, console, runs, clock, rows: Vec::new() };
     let sizes = size.map_or_else(|| SIDES.map(|side| [side; 2]).to_vec(), |size| vec![size]);
     let middle = size.unwrap_or([1024; 2]);
     let simpson = |points, thinning| WaveMethod::Simpson { points, thinning, de_boor: false };
-    for (name, shape) in curves() {
+    let is_asked = |name| args.curve.as_deref().is_none_or(|curve| curve == name);
+    for (name, shape) in curves().into_iter().filter(|(name, _)| is_asked(*name)) {
         let wave = [wave(shape)];
         for &size in &sizes {
             let mut methods = vec![simpson(100, 1), simpson(300, 1), simpson(500, 1)];
@@ -78,6 +80,9 @@ pub(super) fn measure(
             let wide = [Wave { core: WIDE_CORE, ..wave[0].clone() }];
             bench.compare(&format!("{name}, core 2 cm"), &wide, size, &[simpson(500, 1)])?;
         }
+    }
+    if args.curve.is_some() {
+        return Ok(WaveReport { clock, rows: bench.rows });
     }
     for count in [1, 10, 100] {
         bench.compare("volley of helices", &volley(count), middle, &[])?;
