@@ -389,10 +389,10 @@ struct Hatch {
 struct HatchPoint {
     p_in_world: vec3f,
     normal: vec3f,
-    direction: vec3f,
+    direction: Line,
     rest: vec3f,
     rest_normal: vec3f,
-    rest_direction: vec3f,
+    rest_direction: Line,
     uv: vec2f,
     uv_dx: vec2f,
     uv_dy: vec2f,
@@ -418,6 +418,8 @@ struct HatchedSurface {
     color: vec4f,
     @location(6)
     marks: vec2f,
+    @location(7)
+    direction_mixed: vec3f,
     @location(8) @interpolate(flat)
     line_id: u32,
     @location(9) @interpolate(flat)
@@ -429,7 +431,9 @@ struct HatchedSurface {
     @location(12)
     rest_normal: vec3f,
     @location(13)
-    rest_direction: vec3f
+    rest_direction: vec3f,
+    @location(14)
+    rest_direction_mixed: vec3f
 }
 
 struct Highlight {
@@ -481,6 +485,11 @@ struct Light {
 struct LightTerm {
     term: f32,
     to_light: vec3f
+}
+
+struct Line {
+    own: vec3f,
+    mixed: vec3f
 }
 
 struct LineSet {
@@ -893,10 +902,8 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
 fn frames(look: u32, point: HatchPoint) -> Frames {
     let n = point.normal;
     let rest_n = unit(point.rest_normal);
-    var d = point.direction - n * dot(n, point.direction);
-    d = unit(select(any_across(n), d, dot(d, d) > 1e-8));
-    var rest_d = point.rest_direction - rest_n * dot(rest_n, point.rest_direction);
-    rest_d = unit(select(any_across(rest_n), rest_d, dot(rest_d, rest_d) > 1e-8));
+    let d = line_across(point.direction, n);
+    let rest_d = line_across(point.rest_direction, rest_n);
     let b = cross(n, d) * select(1.0, -1.0, point.mirrored);
     let rest_b = cross(rest_n, rest_d);
     let orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -1019,7 +1026,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
 }
 
 fn hatch_point(in: HatchedSurface) -> HatchPoint {
-    return HatchPoint(in.p_in_world, unit(in.normal), in.direction, in.rest, in.rest_normal, in.rest_direction, in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
+    return HatchPoint(in.p_in_world, unit(in.normal), Line(in.direction, in.direction_mixed), in.rest, in.rest_normal, Line(in.rest_direction, in.rest_direction_mixed), in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
 }
 
 fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
@@ -1035,7 +1042,9 @@ fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
 }
 
 fn hatched_from_surface(s: Surface, rest: RestInput) -> HatchedSurface {
-    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, s.line_id, s.face, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
+    let d = octahedral_unpack(rest.direction);
+    let rest_d = octahedral_unpack(rest.direction_at_rest);
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, d * d.yzx, s.line_id, s.face, d * d, rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), rest_d * rest_d, rest_d * rest_d.yzx);
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -1245,6 +1254,22 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
         return LightTerm(dot(normal, direction), direction);
     }
     return light_at(light, p_in_world, normal);
+}
+
+fn line_across(line: Line, n: vec3f) -> vec3f {
+    let e = unit(any_across(n));
+    let f = cross(n, e);
+    let of_e = line_times(line, e);
+    let of_f = line_times(line, f);
+    let double = vec2f(dot(e, of_e) - dot(f, of_f), 2.0 * dot(e, of_f));
+    let strength = length(double);
+    let cosine = select(double.x / max(strength, 1e-20), 1.0, strength < 1e-6);
+    let half = sqrt(max(0.5 + 0.5 * vec2f(cosine, -cosine), vec2f(0.0)));
+    return e * half.x + f * select(-half.y, half.y, double.y >= 0.0);
+}
+
+fn line_times(line: Line, v: vec3f) -> vec3f {
+    return line.own * v + vec3f(line.mixed.x * v.y + line.mixed.z * v.z, line.mixed.x * v.x + line.mixed.y * v.z, line.mixed.z * v.x + line.mixed.y * v.y);
 }
 
 fn linear_from_display(c: vec3f) -> vec3f {
