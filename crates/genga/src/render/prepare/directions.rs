@@ -440,4 +440,61 @@ mod tests {
         }
         assert!(of_primitives(&scene, &mesh(&primitive), &[None]).remove(0).is_empty());
     }
+
+    #[test]
+    fn the_axes_are_those_of_the_shader() {
+        let all: Vec<Vec3> = axes().collect();
+        assert_eq!(all.len(), 49);
+        for (i, a) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|b| a.dot(*b).abs() < 0.999), "{a}");
+        }
+    }
+
+    #[test]
+    fn each_side_of_a_box_has_one_direction_along_its_longer_edges() {
+        for turn in
+            [glam::Quat::IDENTITY, glam::Quat::from_euler(glam::EulerRot::XYZ, 0.7, 0.4, 1.1)]
+        {
+            let mut primitive = shapes::cuboid(Vec3::new(3.0, 1.0, 2.0));
+            for v in primitive.positions.iter_mut().chain(&mut primitive.normals) {
+                *v = turn * *v;
+            }
+            let mesh = Mesh { primitives: vec![primitive.clone()], ..Mesh::default() };
+            let sources = [Some(Source::Curvature)];
+            let found = of_primitives(&Scene::default(), &mesh, &sources).remove(0);
+            for (v, n) in primitive.normals.iter().enumerate() {
+                let own = turn.inverse() * *n;
+                let longer = turn * if own.x.abs() > 0.5 { Vec3::Z } else { Vec3::X };
+                let cosine = found[v].dot(longer).abs();
+                // In the mesh's own axes, strokes are parallel to edges; else next to them.
+                let least = if turn == glam::Quat::IDENTITY { 0.9999 } else { 0.93 };
+                assert!(cosine > least, "{own}: {cosine}");
+                assert!(lead(n.cross(found[v])) > LEAD);
+                let same = |&w: &usize| primitive.normals[w] == *n;
+                let others = (0..found.len()).filter(same);
+                assert!(others.map(|w| found[w]).all(|d| d == found[v]));
+            }
+        }
+    }
+
+    #[test]
+    fn flat_faces_that_stand_for_something_round_are_hatched_as_such() {
+        // Twelve flat sides, 30° from each other.
+        let mut primitive = Primitive::default();
+        for i in 0..12_u32 {
+            let at = |i: u32, y: f32| {
+                let (sin, cos) = (i as f32 * std::f32::consts::TAU / 12.0).sin_cos();
+                Vec3::new(sin, y, cos)
+            };
+            let corners = [at(i, -0.4), at((i + 1) % 12, -0.4), at((i + 1) % 12, 0.4), at(i, 0.4)];
+            let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+            primitive.positions.extend(corners);
+            primitive.normals.extend([n; 4]);
+            primitive.indices.extend([0, 1, 2, 0, 2, 3].map(|k| 4 * i + k));
+        }
+        let mesh = Mesh { primitives: vec![primitive], ..Mesh::default() };
+        let round = of_primitives(&Scene::default(), &mesh, &[Some(Source::Curvature)]).remove(0);
+        // Though each side is higher than wide.
+        assert!(round.iter().all(|d| d.y.abs() < 0.3), "{round:?}");
+    }
 }
