@@ -118,6 +118,37 @@ fn painted_directions_may_point_to_either_end() {
     assert_eq!(off, 0, "pixels that differ");
 }
 
+/// A square whose normal was the direction that stood for none: its strokes went by how it stood in
+/// the world.
+#[test]
+fn strokes_along_an_axis_turn_with_what_they_lie_on() {
+    use genga::render::{View, ViewCamera};
+    use glam::{Affine3A, Quat, Vec2, Vec3};
+    let style = hatching(
+        "pattern = \"strokes\"\nspacing = 8\ndirection = \"fixed\"\naxis = [1, 0.4, 0]\n\
+         tones = [{ at = 0, lum = 0.5 }]",
+        192,
+    );
+    let ink = |turn: Quat| {
+        let mut scene = genga_tests::scenes::Builder::new();
+        let standing = genga_tests::scenes::parts(Vec3::ZERO, turn, Vec3::ONE);
+        scene.object("square", genga::shapes::plane(Vec2::splat(2.0)), None, standing);
+        let scene = scene.build();
+        let slanted = Affine3A::from_rotation_y(0.9) * Affine3A::from_translation(Vec3::Z * 4.0);
+        let camera = ViewCamera {
+            world_from_camera: Affine3A::from_quat(turn) * slanted,
+            ..subjects::front(192).camera
+        };
+        let view = View { camera, ..subjects::front(192) };
+        Frame::draw(&scene, &Pose::rest(&scene), &style, &view).ink
+    };
+    let (standing, turned) =
+        (ink(Quat::IDENTITY), ink(Quat::from_euler(glam::EulerRot::ZXY, 0.8, 0.3, 0.0)));
+    assert!(standing.iter().sum::<f64>() > 1000.0);
+    let off = standing.iter().zip(&turned).filter(|(a, b)| (*a - *b).abs() > 0.1).count();
+    assert!(off < standing.len() / 500, "{off} pixels differ");
+}
+
 /// On a box each side has strokes of one direction, along its edges.
 #[test]
 fn the_sides_of_a_box_have_one_direction_each() {

@@ -1276,9 +1276,9 @@ fn line_across(line: Line, n: vec3f) -> vec3f {
     let of_f = line_times(line, f);
     let double = vec2f(dot(e, of_e) - dot(f, of_f), 2.0 * dot(e, of_f));
     let strength = length(double);
-    let cosine = select(double.x / max(strength, 1e-20), 1.0, strength < 1e-6);
-    let half = sqrt(max(0.5 + 0.5 * vec2f(cosine, -cosine), vec2f(0.0)));
-    return e * half.x + f * select(-half.y, half.y, double.y >= 0.0);
+    var half = select(vec2f(double.x + strength, double.y), vec2f(double.y, strength - double.x), double.x < 0.0);
+    half = select(half, vec2f(1.0, 0.0), strength < 1e-6);
+    return (e * half.x + f * half.y) * inverseSqrt(dot(half, half));
 }
 
 fn line_times(line: Line, v: vec3f) -> vec3f {
