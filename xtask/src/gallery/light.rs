@@ -59,7 +59,7 @@ fn colors(stage: &str) -> Sheet {
                color = \"#ff5030\"\n[[light]]\ntype = \"directional\"\nazimuth_deg = 60\n\
                elevation_deg = 25\ncolor = \"#4f7dff\"\n";
     let lamp = "[[light]]\ntype = \"directional\"\nazimuth_deg = -50\nelevation_deg = 38\n\
-                [[light]]\ntype = \"point\"\nposition = [1.3, 0.9, 0.6]\nrange = 2.2\n\
+                [[light]]\ntype = \"point\"\nposition = [1.5, 0.7, 0.7]\n\
                 color = \"#ff3a20\"\nintensity = 0.9\n";
     let modern =
         "version = 1\nextends = \"american-comic-modern\"\n[paint.shadow]\nenabled = true\n";
