@@ -24,12 +24,35 @@ pub(super) fn cape(body: &Body) -> Part {
         })
         .collect();
     (0..3).for_each(|_| rows = evened(&rows));
+    // Contours run through the folds: their triangles must turn by little.
+    rows = turned(&refined(&turned(&refined(&rows))));
     let mut part = sheet(&rows, 0.006);
     part.uvs = vec![DVec2::ZERO; part.positions.len()];
     for (uv, p) in part.uvs.iter_mut().zip(&part.positions) {
         *uv = DVec2::new(p.x + 0.5, 1.6 - p.y);
     }
     part
+}
+
+/// A point more between any two of a row, on the cubic curve through its four neighbours.
+fn refined(rows: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+    let between = |row: &[DVec3], i: usize| {
+        let before = if i == 0 { 2.0 * row[0] - row[1] } else { row[i - 1] };
+        let after = row.get(i + 2).copied().unwrap_or(2.0 * row[i + 1] - row[i]);
+        (9.0 * (row[i] + row[i + 1]) - before - after) / 16.0
+    };
+    let finer = |row: &Vec<DVec3>| {
+        let mut points: Vec<DVec3> =
+            (0..row.len() - 1).flat_map(|i| [row[i], between(row, i)]).collect();
+        points.extend(row.last());
+        points
+    };
+    rows.iter().map(finer).collect()
+}
+
+/// Columns as rows.
+fn turned(rows: &[Vec<DVec3>]) -> Vec<Vec<DVec3>> {
+    (0..rows[0].len()).map(|c| rows.iter().map(|row| row[c]).collect()).collect()
 }
 
 /// Each point half way to the mean of its neighbours, on the border to those along the border.

@@ -36,6 +36,10 @@ const COUNT_PIECES: u32 = 0u;
 
 const CURVATURE_REACH: f32 = 8.0;
 
+const CUSP_COSINE: f32 = 0.7;
+
+const DOUBT: f32 = 4.0;
+
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SCREEN_CURVATURE: u32 = 256u;
@@ -47,8 +51,6 @@ const HEADING_REACH: f32 = 4.0;
 const LINK_END: u32 = 1073741823u;
 
 const LINK_JUNCTION: u32 = 2147483648u;
-
-const LONE: f32 = 4.0;
 
 const MARGIN_REACH: f32 = 16.0;
 
@@ -329,35 +331,6 @@ fn length_of(piece: u32) -> f32 {
     return distance(pieces[piece].a, pieces[piece].b);
 }
 
-fn mean_margin(end: u32) -> f32 {
-    let reach = MARGIN_REACH * max(frame.line_scale, 0.5);
-    var sum = 0.0;
-    var weight = 1e-6;
-    var all = 1e-6;
-    for (var side = 0u; side < 2u; side++) {
-        var at = end;
-        if (side == 1u) {
-            at = next_of_stroke(end);
-        }
-        var left = reach;
-        for (var i = 0u; at != NOWHERE && i < MAX_HOPS; i++) {
-            let long = min(length_of(at >> 1u), left);
-            let margins = unpack2x16float(pieces[at >> 1u].widths);
-            let margin = max(0.5 * (margins.x + margins.y), -1.0);
-            let known = select(0.0, long, abs(margin) > 2.0 * abs(UNKNOWN_MARGIN));
-            sum += known * margin;
-            weight += known;
-            all += long;
-            left -= long;
-            if (left <= 0.0) {
-                break;
-            }
-            at = next_of_stroke(at ^ 1u);
-        }
-    }
-    return sum / weight * saturate(2.0 * weight / all);
-}
-
 fn mismatch(end: u32, other: u32) -> f32 {
     let differs = ((pieces[end >> 1u].sets ^ pieces[other >> 1u].sets) & (SETS | PIECE_WEAK)) != 0u;
     return dot(direction(end), direction(other)) + select(0.0, 4.0, differs);
@@ -497,6 +470,45 @@ fn smoothed(end: u32) -> vec2f {
     return sum / 8.0;
 }
 
+fn sure_width(end: u32) -> f32 {
+    let reach = MARGIN_REACH * max(frame.line_scale, 0.5);
+    var sum = 0.0;
+    var weight = 1e-6;
+    var all = 1e-6;
+    var missing = 0.0;
+    for (var side = 0u; side < 2u; side++) {
+        var at = end;
+        if (side == 1u) {
+            at = next_of_stroke(end);
+        }
+        var left = reach;
+        for (var i = 0u; at != NOWHERE && i < MAX_HOPS; i++) {
+            let long = min(length_of(at >> 1u), left);
+            let margins = unpack2x16float(pieces[at >> 1u].widths);
+            let margin = max(0.5 * (margins.x + margins.y), -1.0);
+            let known = select(0.0, long, abs(margin) > 2.0 * abs(UNKNOWN_MARGIN));
+            sum += known * margin;
+            missing += known * max(-margin, 0.0);
+            weight += known;
+            all += long;
+            left -= long;
+            if (left <= 0.0) {
+                break;
+            }
+            at = next_of_stroke(at ^ 1u);
+        }
+    }
+    let mean = sum / weight * saturate(2.0 * weight / all);
+    let is_doubtful = (pieces[end >> 1u].sets & (PIECE_WEAK | PIECE_SEAM)) != 0u;
+    let doubt = select(saturate(DOUBT * missing / all), 1.0, is_doubtful);
+    return mix(end_width(end), max(mean, 0.0), doubt);
+}
+
+fn turns_back(end: u32, other: u32) -> bool {
+    let are_contours = pieces[end >> 1u].own_step > 0.0 && pieces[other >> 1u].own_step > 0.0;
+    return are_contours && dot(direction(end), direction(other)) > CUSP_COSINE;
+}
+
 @compute @workgroup_size(64)
 fn begin_rank(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) groups: vec3u) {
     let end = id.x + id.y * groups.x * 64u;
@@ -553,14 +565,9 @@ fn close(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
     var state = vec4u(sets, pieces[piece].widths, 0u, 0u);
     let own = length_of(piece);
     if ((sets & SETS) != 0u) {
-        let means = vec2f(mean_margin(2u * piece), mean_margin(2u * piece + 1u));
-        if ((sets & (PIECE_WEAK | PIECE_SEAM)) != 0u) {
-            state.x = select(0u, sets, any(means > vec2f(0.0)));
-            state.y = pack2x16float(max(means, vec2f(0.0)));
-        }
-        else {
-            state.y = pack2x16float(unpack2x16float(pieces[piece].widths) * saturate(1.0 + LONE * means));
-        }
+        let width = vec2f(sure_width(2u * piece), sure_width(2u * piece + 1u));
+        state.x = select(0u, sets, any(width > vec2f(0.0)));
+        state.y = pack2x16float(width);
     }
     if (!is_strong(piece) && own <= frame.max_gap) {
         var gap = own;
@@ -581,7 +588,7 @@ fn close(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) grou
         }
         if (gap <= frame.max_gap && found[0] != NOWHERE && found[1] != NOWHERE) {
             let both = pieces[found[0] >> 1u].sets & pieces[found[1] >> 1u].sets & SETS;
-            let width = vec2f(end_width(found[0]), end_width(found[1]));
+            let width = vec2f(sure_width(found[0]), sure_width(found[1]));
             state = vec4u(both | PIECE_CLOSED, pack2x16float(width), 0u, 0u);
         }
     }
@@ -637,6 +644,10 @@ fn join(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups) group
         return;
     }
     let chosen = best_partner(end);
+    if (chosen.end != 0u && turns_back(end, chosen.end - 1u)) {
+        links[end] = 0u;
+        return;
+    }
     var link = 0u;
     if (chosen.end != 0u && best_partner(chosen.end - 1u).end == end + 1u) {
         link = chosen.end;

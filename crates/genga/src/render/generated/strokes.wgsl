@@ -30,9 +30,13 @@ var<storage, read> places: array<vec4f>;
 @group(1) @binding(5)
 var<storage, read> marks: array<u32>;
 
+const AHEAD: f32 = 2.0;
+
 const AT_LINE: f32 = 0.75;
 
 const BEFORE_CUT: f32 = 3.0;
+
+const CLEARLY_BEFORE: f32 = 12.0;
 
 const CURVE_COUNT: u32 = 5u;
 
@@ -45,6 +49,10 @@ const CURVE_LIGHT: u32 = 3u;
 const CURVE_SCREEN_CURVATURE: u32 = 2u;
 
 const CURVE_TAPER: u32 = 4u;
+
+const CUSP: f32 = 10.0;
+
+const CUSP_TIP: f32 = 0.22;
 
 const FRAME_LINE_DEPTHS: u32 = 1024u;
 
@@ -121,6 +129,7 @@ struct Detect {
 struct Ending {
     distance: f32,
     is_free: bool,
+    is_contour: bool,
     is_joined: bool,
     is_closed: bool,
     onward: u32
@@ -228,6 +237,12 @@ struct Stroke {
     owner: u32
 }
 
+fn ahead_of(end: u32) -> vec2f {
+    let place = places[end >> 1u];
+    let along = select(place.zw - place.xy, place.xy - place.zw, (end & 1u) == 0u);
+    return along * inverseSqrt(max(dot(along, along), 1e-12));
+}
+
 fn behind(p_px: vec2f, line_depth: f32) -> f32 {
     let size = vec2i(textureDimensions(depths));
     let at = clamp(vec2i(floor(p_px - frame.tile_origin)), vec2i(0), size - 1);
@@ -305,6 +320,12 @@ fn curve_at(line_set: u32, curve: u32, x: f32) -> f32 {
     return before.y;
 }
 
+fn cusp(radius: f32, end: Ending, away: f32) -> f32 {
+    let is_cusp = end.is_free && end.is_contour;
+    let share = saturate(away / (CUSP * frame.line_scale));
+    return select(radius, min(radius, mix(CUSP_TIP, radius, share)), is_cusp);
+}
+
 fn depth_from_line(frame: Frame, line_depth: f32) -> f32 {
     let range = frame.depth_range;
     let is_ortho = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -315,7 +336,7 @@ fn ending(end: u32) -> Ending {
     let rank = ranks[end];
     let last = rank.x;
     if (ranks[last].y != 0u) {
-        return Ending(0.0, false, false, true, 0u);
+        return Ending(0.0, false, false, false, true, 0u);
     }
     let link = links[last];
     let meets_bit = select(PIECE_MEETS_B, PIECE_MEETS_A, (last & 1u) == 0u);
@@ -330,24 +351,19 @@ fn ending(end: u32) -> Ending {
     if (onward != 0u && (states[(onward - 1u) >> 1u].x & SETS) == 0u) {
         onward = 0u;
     }
+    let is_contour = pieces[last >> 1u].own_step > 0.0;
+    is_cut = is_cut && (!is_contour || is_behind_ahead(last));
     let is_free = !is_joined && !is_cut && onward == 0u && !goes_on(last);
-    return Ending(bitcast<f32>(rank.y), is_free, is_joined, false, onward);
+    return Ending(bitcast<f32>(rank.y), is_free, is_contour, is_joined, false, onward);
 }
 
 fn goes_on(end: u32) -> bool {
-    let place = places[end >> 1u];
-    let tip = select(place.zw, place.xy, (end & 1u) == 0u);
-    let back = select(place.xy, place.zw, (end & 1u) == 0u);
-    let along = tip - back;
-    let unit = along * inverseSqrt(max(dot(along, along), 1e-12));
-    let ahead = 1.5 + 2.0 / min(frame.gbuffer_scale, 1.0);
-    let size = vec2i(textureDimensions(ids));
-    let texel = vec2i(floor((tip + ahead * unit - frame.tile_origin) * frame.gbuffer_scale));
-    if (any(texel < vec2i(0)) || any(texel >= size)) {
-        return false;
-    }
-    let index = u32(texel.y * size.x + texel.x);
-    return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
+    let reach = (1.5 + 2.0 / min(frame.gbuffer_scale, 1.0)) * ahead_of(end);
+    let across = vec2f(-reach.y, reach.x);
+    let is_contour = pieces[end >> 1u].own_step > 0.0;
+    let is_ahead = is_marked(tip_of(end) + reach);
+    let is_beside = is_marked(tip_of(end) + 0.7 * (reach + across)) || is_marked(tip_of(end) + 0.7 * (reach - across));
+    return is_ahead || (is_contour && is_beside);
 }
 
 fn handed_over(radius: f32, away: f32, onward: u32) -> f32 {
@@ -442,6 +458,11 @@ fn ink_at(in: Stroke) -> Ink {
     return Ink(channels * coverage * dashed, line_depth, place.t);
 }
 
+fn is_behind_ahead(end: u32) -> bool {
+    let depth = select(pieces[end >> 1u].depth_b, pieces[end >> 1u].depth_a, (end & 1u) == 0u);
+    return behind(tip_of(end) + AHEAD * ahead_of(end), depth) > CLEARLY_BEFORE;
+}
+
 fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32, own_step: f32) -> bool {
     var here = behind(p_px, line_depth);
     if (here <= ON_SURFACE) {
@@ -475,6 +496,16 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32, own_ste
         }
     }
     return false;
+}
+
+fn is_marked(p_px: vec2f) -> bool {
+    let size = vec2i(textureDimensions(ids));
+    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
+    if (any(texel < vec2i(0)) || any(texel >= size)) {
+        return false;
+    }
+    let index = u32(texel.y * size.x + texel.x);
+    return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
 }
 
 fn is_under_other(p_px: vec2f, spine_px: vec2f, line_depth: f32, other: u32) -> bool {
@@ -553,6 +584,7 @@ fn radius_at(line_set: u32, piece: u32, at_b: bool, from_start: f32, to_end: f32
     if (nearest < 1e29) {
         radius *= curve_at(line_set, CURVE_TAPER, nearest / frame.line_scale);
     }
+    radius = cusp(cusp(radius, start, from_start), end, to_end);
     radius = handed_over(radius, from_start, start.onward);
     radius = handed_over(radius, to_end, end.onward);
     return min(radius, MAX_RADIUS);
@@ -568,6 +600,11 @@ fn surface_noise(rest: vec3f, wavelength: f32, seed: u32) -> vec2f {
     let coarse = value_noise(0.5 * p, seed ^ bitcast<u32>(i32(low) + 1));
     let weights = vec2f(1.0 - share, share);
     return clamp((weights.x * fine + weights.y * coarse) * inverseSqrt(dot(weights, weights)), vec2f(-1.0), vec2f(1.0)) * 0.7071;
+}
+
+fn tip_of(end: u32) -> vec2f {
+    let place = places[end >> 1u];
+    return select(place.zw, place.xy, (end & 1u) == 0u);
 }
 
 fn value_noise(p: vec3f, seed: u32) -> vec2f {
