@@ -95,6 +95,90 @@ fn strokes_run_round_the_form() {
     }
 }
 
+/// A direction has no front: as vectors, opposite ones at neighbours would pass through zero, and
+/// strokes would turn half round between them.
+#[test]
+fn painted_directions_may_point_to_either_end() {
+    let ink = |opposite: bool| {
+        let mut tube = subjects::body("cylinder");
+        tube.hatch_directions = (0..tube.positions.len())
+            .map(|v| {
+                glam::Vec3::new(0.0, 1.0, 0.0) * if opposite && v % 3 == 0 { -1.0 } else { 1.0 }
+            })
+            .collect();
+        let mut scene = genga_tests::scenes::Builder::new();
+        scene.object("tube", tube, None, Default::default());
+        let scene = scene.build();
+        let style = hatching(&format!("{HAND}\ndirection = \"painted\""), 256);
+        Frame::draw(&scene, &Pose::rest(&scene), &style, &subjects::front(256)).ink
+    };
+    let (one, other) = (ink(false), ink(true));
+    assert!(one.iter().sum::<f64>() > 1000.0);
+    let off = one.iter().zip(&other).filter(|(a, b)| (*a - *b).abs() > 0.02).count();
+    assert_eq!(off, 0, "pixels that differ");
+}
+
+/// A square whose normal was the direction that stood for none: its strokes went by how it stood in
+/// the world.
+#[test]
+fn strokes_along_an_axis_turn_with_what_they_lie_on() {
+    use genga::render::{View, ViewCamera};
+    use glam::{Affine3A, Quat, Vec2, Vec3};
+    let style = hatching(
+        "pattern = \"strokes\"\nspacing = 8\ndirection = \"fixed\"\naxis = [1, 0.4, 0]\n\
+         tones = [{ at = 0, lum = 0.5 }]",
+        192,
+    );
+    let ink = |turn: Quat| {
+        let mut scene = genga_tests::scenes::Builder::new();
+        let standing = genga_tests::scenes::parts(Vec3::ZERO, turn, Vec3::ONE);
+        scene.object("square", genga::shapes::plane(Vec2::splat(2.0)), None, standing);
+        let scene = scene.build();
+        let slanted = Affine3A::from_rotation_y(0.9) * Affine3A::from_translation(Vec3::Z * 4.0);
+        let camera = ViewCamera {
+            world_from_camera: Affine3A::from_quat(turn) * slanted,
+            ..subjects::front(192).camera
+        };
+        let view = View { camera, ..subjects::front(192) };
+        Frame::draw(&scene, &Pose::rest(&scene), &style, &view).ink
+    };
+    let (standing, turned) =
+        (ink(Quat::IDENTITY), ink(Quat::from_euler(glam::EulerRot::ZXY, 0.8, 0.3, 0.0)));
+    assert!(standing.iter().sum::<f64>() > 1000.0);
+    let off = standing.iter().zip(&turned).filter(|(a, b)| (*a - *b).abs() > 0.1).count();
+    assert!(off < standing.len() / 500, "{off} pixels differ");
+}
+
+/// On a box each side has strokes of one direction, along its edges.
+#[test]
+fn the_sides_of_a_box_have_one_direction_each() {
+    let mut scene = genga_tests::scenes::Builder::new();
+    let size = glam::Vec3::new(1.6, 0.7, 0.9);
+    scene.object("box", genga::shapes::cuboid(size), None, Default::default());
+    let scene = scene.build();
+    let orbit =
+        genga::render::Orbit { azimuth_deg: -35.0, elevation_deg: 30.0, ..Default::default() };
+    let view = genga::render::View {
+        supersample: 1,
+        ..genga_tests::scenes::orbit_view(&scene, &orbit, [384, 384])
+    };
+    let style = hatching(
+        "pattern = \"strokes\"\nspacing = 8\nlength = 60\nirregularity = 0.5\n\
+         tones = [{ at = 0, lum = 0.5 }]",
+        384,
+    );
+    let frame = Frame::draw(&scene, &Pose::rest(&scene), &style, &view);
+    // The front's and the top's longer sides go along x, and so do those of both others along z.
+    let along = |hit: genga_tests::hatching::surface::Hit, _| {
+        let [a, b, c] = frame.posed().triangles[hit.triangle];
+        let n = (b - a).cross(c - a).normalize();
+        Some(if n.x.abs() > 0.5 { glam::DVec3::Z } else { glam::DVec3::X })
+    };
+    let (within, all) = directions::within_30_degrees(&frame, along);
+    assert!(all > 5000, "only {all} pixels are hatched");
+    assert!(within >= 0.97, "{:.1} % within 30°", 100.0 * within);
+}
+
 #[test]
 fn strokes_are_no_comb() {
     let scene = subjects::standing("cylinder");

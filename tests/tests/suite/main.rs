@@ -2,6 +2,7 @@
 //! pipelines compile once.
 
 mod beam_light;
+mod beam_outlines;
 mod beams;
 mod color;
 mod contours;
@@ -12,6 +13,7 @@ mod hatching;
 mod hatching_pictures;
 mod highlight_surfaces;
 mod highlights;
+mod light_colors;
 mod lines;
 mod marks;
 mod motion;

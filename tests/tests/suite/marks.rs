@@ -76,6 +76,22 @@ fn pencil_has_a_grain_and_gets_darker_with_the_tone() {
         [0.7, 0.6, 0.5, 0.4, 0.3, 0.1].map(|lum| ink("pattern = \"pencil\"\nspacing = 8", lum));
     let means = all.each_ref().map(|ink| mean(ink));
     assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "{means:.3?}");
+    // Graphite is 0.9 of black, and covers its part of the tone.
+    for irregularity in [0.0, 0.5] {
+        for tone in [0.1, 0.3, 0.5, 0.7, 0.9] {
+            let lum = 0.75 - 0.5 * tone;
+            let keys = format!(
+                "pattern = \"pencil\"\nspacing = 6\nirregularity = {irregularity}\n\
+                 tones = [{{ at = 0, lum = {lum} }}]"
+            );
+            let style = hatching(&keys, planes::SIZE);
+            let at =
+                |step: u8| planes::measure(&style, (0.125 * f32::from(step)).exp2(), 0.0).coverage;
+            let found = (0..8).map(at).sum::<f64>() / 8.0;
+            let off = (found - 0.9 * tone).abs();
+            assert!(off <= 0.02, "hand {irregularity}, tone {tone}: {found:.3}");
+        }
+    }
     let grey = all[2].iter().filter(|&&ink| ink > 0.1 && ink < 0.8).count();
     assert!(grey > SIDE * SIDE / 20, "only {grey} pixels are neither paper nor graphite");
     assert!(all[5].iter().all(|&ink| ink <= 0.91), "graphite is not black");

@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex};
 
 use genga::render::{LayerKind, Renderer, View};
 use genga::scene::{
-    AlphaMode, Beam, BeamOrder, Highlight, Material, PanoramaPlacement, Placement, Pose, Proxy,
-    ProxyMesh, Scene, Shading, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
+    AlphaMode, Beam, BeamOrder, BeamOutline, Highlight, Material, PanoramaPlacement, Placement,
+    Pose, Proxy, ProxyMesh, Scene, Shading, Wave, WaveBlend, WaveMethod, WaveOrder, WaveShape,
 };
 use genga::style::{Globs, HatchMapping};
 use genga::{shapes, style::Style};
@@ -64,7 +64,10 @@ fn scene_of_all_kinds() -> Scene {
     .map(|(order, blend)| Wave { order, blend, attenuation: 2.0, ..Wave::default() })
     .to_vec();
     scene.beams = [BeamOrder::Under, BeamOrder::LinesThrough, BeamOrder::Over, BeamOrder::Hide]
-        .map(|order| Beam { order, ..Beam::default() })
+        .map(|order| {
+            let outline = Some(BeamOutline { color: Vec4::W, width: 3.0 });
+            Beam { order, outline, ..Beam::default() }
+        })
         .to_vec();
     scene
 }

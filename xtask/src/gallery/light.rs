@@ -17,6 +17,7 @@ pub(super) fn draw(root: &Path, genga: &Path, folder: &Path) -> Result<()> {
     let [head, teapot] = [read(&scenes, "head.scene.toml")?, read(&scenes, "teapot.scene.toml")?];
     let all = [
         lights(&stage),
+        colors(&stage),
         ramps(&stage)?,
         shines(&teapot),
         shine_steps(&teapot),
@@ -48,6 +49,28 @@ fn lights(stage: &str) -> Sheet {
     ];
     let cells = kinds.iter().map(|kind| cell(format!("{bare}{kind}"), COMIC));
     Sheet { name: "light-lights", cell: [360, 300], columns: 3, cells: cells.collect() }
+}
+
+/// Two coloured lights in flat tones, with shadows and in a gradient; a sun and a red lamp with its colour
+/// and without.
+fn colors(stage: &str) -> Sheet {
+    let bare = stage.split("[[light]]").next().unwrap_or(stage);
+    let two = "[[light]]\ntype = \"directional\"\nazimuth_deg = -60\nelevation_deg = 30\n\
+               color = \"#ff5030\"\n[[light]]\ntype = \"directional\"\nazimuth_deg = 60\n\
+               elevation_deg = 25\ncolor = \"#4f7dff\"\n";
+    let lamp = "[[light]]\ntype = \"directional\"\nazimuth_deg = -50\nelevation_deg = 38\n\
+                [[light]]\ntype = \"point\"\nposition = [1.5, 0.7, 0.7]\n\
+                color = \"#ff3a20\"\nintensity = 0.9\n";
+    let modern =
+        "version = 1\nextends = \"american-comic-modern\"\n[paint.shadow]\nenabled = true\n";
+    let cells = [
+        (two, COMIC.to_owned()),
+        (two, modern.to_owned()),
+        (lamp, COMIC.to_owned()),
+        (lamp, format!("{COMIC}[paint]\nlight_color = 0\n")),
+    ];
+    let cells = cells.iter().map(|(lights, style)| cell(format!("{bare}{lights}"), style));
+    Sheet { name: "light-colors", cell: [400, 333], columns: 2, cells: cells.collect() }
 }
 
 /// Two and three tones, five tones, a gradient, soft edges, shade in a colour of its own.

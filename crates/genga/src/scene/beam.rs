@@ -16,7 +16,7 @@ const LARGEST: f32 = 1e6;
 
 /// A body of light as comics draw it (Suzuki 2004, section 4.1): a shape shaded by a ramp over
 /// E·N, where E is the unit vector to the eye and N the surface's unit normal: 1 where it faces the
-/// eye, 0 at its rim. No light falls on it and it has no lines.
+/// eye, 0 at its rim. No light falls on it, and of lines it has only its own outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beam {
     /// Name for messages; may be empty.
@@ -41,6 +41,8 @@ pub struct Beam {
     pub growth: [f32; 2],
     /// Light on what is near; `None` for none.
     pub light: Option<BeamLight>,
+    /// A line round it; `None` for none.
+    pub outline: Option<BeamOutline>,
 }
 
 impl Default for Beam {
@@ -70,8 +72,19 @@ impl Default for Beam {
             size: 1.0,
             growth: [0.0, 1.0],
             light: None,
+            outline: None,
         }
     }
+}
+
+/// A line round a beam, and round those of its parts that lie before others. It is as see-through as
+/// the beam's opacity makes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeamOutline {
+    /// Straight alpha, as displayed (sRGB-encoded).
+    pub color: Vec4,
+    /// Pixels at the style's reference height, 0 to 1000. It lies outside of the beam.
+    pub width: f32,
 }
 
 /// A tone of a beam.
@@ -209,6 +222,11 @@ impl Beam {
             number("light's range", light.range, 1e-6, LARGEST)?;
             let color = light.color.unwrap_or(Vec3::ONE).to_array();
             color.iter().try_for_each(|&part| number("light's colour", part, 0.0, 1.0))?;
+        }
+        if let Some(outline) = &self.outline {
+            number("outline's width", outline.width, 0.0, 1000.0)?;
+            let color = outline.color.to_array();
+            color.iter().try_for_each(|&part| number("outline's colour", part, 0.0, 1.0))?;
         }
         let [tail, head] = self.growth;
         if !(0.0 <= tail && tail <= head && head <= 1.0) {

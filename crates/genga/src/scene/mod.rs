@@ -28,7 +28,8 @@ pub(crate) mod wave_curve;
 mod wave_tests;
 
 pub use beam::{
-    Beam, BeamLight, BeamMotion, BeamOrder, BeamShape, BeamTone, MAX_BEAM_TONES, MAX_BEAMS,
+    Beam, BeamLight, BeamMotion, BeamOrder, BeamOutline, BeamShape, BeamTone, MAX_BEAM_TONES,
+    MAX_BEAMS,
 };
 pub(crate) use beam_mesh::BeamMesh;
 pub use bounds::Aabb;

@@ -4,7 +4,8 @@ use serde::Deserialize;
 
 use super::{Located, NodeNames};
 use crate::scene::{
-    Beam, BeamLight, BeamMotion, BeamOrder, BeamShape, BeamTone, WaveAnchor, WavePlacement,
+    Beam, BeamLight, BeamMotion, BeamOrder, BeamOutline, BeamShape, BeamTone, WaveAnchor,
+    WavePlacement,
 };
 use crate::style::{Color, Globs};
 
@@ -107,6 +108,23 @@ struct Light {
     /// Whether surfaces cast its shadows, as from a lamp in the beam's middle, which must be free.
     #[serde(default)]
     casts_shadow: bool,
+}
+
+/// A line round a beam.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "BeamOutline")]
+struct Outline {
+    /// Its colour; black by default.
+    #[serde(default = "black")]
+    color: Color,
+    /// Pixels in a picture of the style's reference height.
+    #[schemars(range(min = 0, max = 1000))]
+    width: f32,
+}
+
+fn black() -> Color {
+    Color::BLACK
 }
 
 fn one() -> f32 {
@@ -213,6 +231,8 @@ pub(super) struct Written {
     growth: Option<[f32; 2]>,
     /// Light on what is near.
     light: Option<Light>,
+    /// A line round it; none by default.
+    outline: Option<Outline>,
     /// How it lives.
     #[serde(default)]
     motion: Motion,
@@ -272,6 +292,10 @@ impl TryFrom<Written> for BeamEntry {
                 range: l.range,
                 color: l.color.map(|color| Vec4::from(color.to_array()).truncate()),
                 casts_shadow: l.casts_shadow,
+            }),
+            outline: w.outline.map(|outline| BeamOutline {
+                color: Vec4::from(outline.color.to_array()),
+                width: outline.width,
             }),
         };
         beam.check(usize::MAX)?;

@@ -94,7 +94,7 @@ pub enum HatchPattern {
     Solid,
     /// Points of the pen.
     Stipple,
-    /// Soft strokes with the paper's grain.
+    /// Soft strokes with the paper's grain; graphite covers 0.9 of what ink would.
     Pencil,
     /// Screen tone: rows of round dots on the page, whatever the mapping.
     Dots,

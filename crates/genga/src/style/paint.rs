@@ -77,6 +77,11 @@ pub struct Paint {
     pub shade_bias: f32,
     /// Shade bias by vertex or texel; none by default.
     pub shade_map: Option<ShadeMap>,
+    /// How much the colours of lights show on what they light: 1 wholly, 0 not at all, so that
+    /// only their brightness counts. The step from the ramp's darkest tone to a lighter one takes on
+    /// the light's colour: that of the light that gives most there, on a `smooth` ramp the mean.
+    #[schemars(range(min = 0, max = 1))]
+    pub light_color: f32,
     /// Cast shadows.
     pub shadow: Shadow,
     /// Ink over the colour: hatching, screen tone, blacks.
@@ -102,6 +107,7 @@ impl Default for Paint {
             ramp: Ramp::default(),
             shade_bias: 0.0,
             shade_map: None,
+            light_color: 1.0,
             shadow: Shadow::default(),
             hatch: Hatch::default(),
             specular: None,

@@ -16,6 +16,8 @@ const BEAM_TWO_SIDED: u32 = 8u;
 
 const BEFORE_ALL: f32 = 0.99;
 
+const BEHIND: f32 = 4.0;
+
 const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const MIN_WIDTH: f32 = 0.0001;
@@ -23,10 +25,11 @@ const MIN_WIDTH: f32 = 0.0001;
 struct Beam {
     tones: array<vec4f, 8>,
     places: array<vec4f, 4>,
+    outline: vec4f,
     flags: u32,
+    outline_width: f32,
     reserved_0: u32,
-    reserved_1: u32,
-    reserved_2: u32
+    reserved_1: u32
 }
 
 struct BeamPoint {
@@ -139,6 +142,13 @@ fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     return frame.depth_range.x / max(depth, 1e-30);
 }
 
+fn footprint(frame: Frame, distance: f32) -> f32 {
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        return frame.pixel_footprint;
+    }
+    return frame.pixel_footprint * distance;
+}
+
 fn octahedral_unpack(bits: u32) -> vec3f {
     let p = unpack2x16snorm(bits);
     var n = vec3f(p, 1.0 - abs(p.x) - abs(p.y));
@@ -148,9 +158,21 @@ fn octahedral_unpack(bits: u32) -> vec3f {
     return normalize(n);
 }
 
+fn over_lines(in: BeamPoint, color: vec4f) -> OverLines {
+    let depth = select(in.clip.z, 1.0, (beam.flags & BEAM_BEFORE_ALL) != 0u);
+    let hides = select(0.0, 1.0, (beam.flags & BEAM_HIDES) != 0u);
+    return OverLines(color, vec4f(distance_from_depth(frame, depth), hides, 0.0, 1.0));
+}
+
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn placed(on_picture: vec4f) -> vec4f {
+    var clip = viewport_clip(frame, on_picture, frame.paint_scale);
+    clip.z = mix(clip.z, clip.w, select(0.0, BEFORE_ALL, (beam.flags & BEAM_BEFORE_ALL) != 0u));
+    return clip;
 }
 
 fn sign_not_zero(v: vec2f) -> vec2f {
@@ -186,14 +208,36 @@ fn beam_fragment(in: BeamPoint) -> @location(0) vec4f {
 
 @fragment
 fn beam_over_fragment(in: BeamPoint) -> OverLines {
-    let depth = select(in.clip.z, 1.0, (beam.flags & BEAM_BEFORE_ALL) != 0u);
-    let hides = select(0.0, 1.0, (beam.flags & BEAM_HIDES) != 0u);
-    return OverLines(beam_color(in), vec4f(distance_from_depth(frame, depth), hides, 0.0, 1.0));
+    return over_lines(in, beam_color(in));
+}
+
+@fragment
+fn outline_fragment(in: BeamPoint) -> @location(0) vec4f {
+    return beam.outline;
+}
+
+@fragment
+fn outline_over_fragment(in: BeamPoint) -> OverLines {
+    return over_lines(in, beam.outline);
 }
 
 @vertex
 fn beam_vertex(@location(0) p_in_world: vec3f, @location(1) normal: u32) -> BeamPoint {
-    var clip = viewport_clip(frame, frame.clip_from_world * vec4f(p_in_world, 1.0), frame.paint_scale);
-    clip.z = mix(clip.z, clip.w, select(0.0, BEFORE_ALL, (beam.flags & BEAM_BEFORE_ALL) != 0u));
+    let clip = placed(frame.clip_from_world * vec4f(p_in_world, 1.0));
     return BeamPoint(clip, p_in_world, octahedral_unpack(normal));
+}
+
+@vertex
+fn outline_vertex(@location(0) p_in_world: vec3f, @location(2) smooth_normal: u32) -> BeamPoint {
+    let normal = octahedral_unpack(smooth_normal);
+    let clip = frame.clip_from_world * vec4f(p_in_world, 1.0);
+    let step = frame.clip_from_world * vec4f(normal, 0.0);
+    let aspect = vec2f(frame.picture_size.x / frame.picture_size.y, 1.0);
+    let way = (step.xy * clip.w - clip.xy * step.w) * aspect;
+    let width = beam.outline_width * frame.line_scale * 2.0 / frame.picture_size.y;
+    let out = way * (width * inverseSqrt(max(dot(way, way), 1e-20))) / aspect;
+    let back = BEHIND * beam.outline_width * frame.line_scale * footprint(frame, max(clip.w, frame.depth_range.x));
+    let behind = frame.clip_from_world * vec4f(p_in_world - back * to_eye(frame, p_in_world), 1.0);
+    let depth = behind.z / max(behind.w, 1e-20) * clip.w;
+    return BeamPoint(placed(vec4f(clip.xy + out * clip.w, depth, clip.w)), p_in_world, normal);
 }

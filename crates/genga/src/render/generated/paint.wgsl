@@ -128,6 +128,8 @@ const GAP: f32 = 0.015;
 
 const GAP_JITTER: f32 = 0.03;
 
+const GRAPHITE: f32 = 0.9;
+
 const GRAZING: f32 = 0.35;
 
 const GROWTH: f32 = 0.15;
@@ -171,6 +173,8 @@ const LIGHT_DIRECTIONAL: u32 = 0u;
 const LIGHT_SKY: u32 = 3u;
 
 const LIGHT_SPOT: u32 = 2u;
+
+const LIGHT_TINT: f32 = 0.5;
 
 const LONGEST_STEP: f32 = 1.5;
 
@@ -389,10 +393,10 @@ struct Hatch {
 struct HatchPoint {
     p_in_world: vec3f,
     normal: vec3f,
-    direction: vec3f,
+    direction: Line,
     rest: vec3f,
     rest_normal: vec3f,
-    rest_direction: vec3f,
+    rest_direction: Line,
     uv: vec2f,
     uv_dx: vec2f,
     uv_dy: vec2f,
@@ -418,6 +422,8 @@ struct HatchedSurface {
     color: vec4f,
     @location(6)
     marks: vec2f,
+    @location(7)
+    direction_mixed: vec3f,
     @location(8) @interpolate(flat)
     line_id: u32,
     @location(9) @interpolate(flat)
@@ -429,7 +435,9 @@ struct HatchedSurface {
     @location(12)
     rest_normal: vec3f,
     @location(13)
-    rest_direction: vec3f
+    rest_direction: vec3f,
+    @location(14)
+    rest_direction_mixed: vec3f
 }
 
 struct Highlight {
@@ -478,9 +486,23 @@ struct Light {
     color: vec4f
 }
 
+struct LightParts {
+    best: f32,
+    second: f32,
+    best_color: vec3f,
+    second_color: vec3f,
+    sum: f32,
+    sum_color: vec3f
+}
+
 struct LightTerm {
     term: f32,
     to_light: vec3f
+}
+
+struct Line {
+    own: vec3f,
+    mixed: vec3f
 }
 
 struct LineSet {
@@ -893,10 +915,8 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
 fn frames(look: u32, point: HatchPoint) -> Frames {
     let n = point.normal;
     let rest_n = unit(point.rest_normal);
-    var d = point.direction - n * dot(n, point.direction);
-    d = unit(select(any_across(n), d, dot(d, d) > 1e-8));
-    var rest_d = point.rest_direction - rest_n * dot(rest_n, point.rest_direction);
-    rest_d = unit(select(any_across(rest_n), rest_d, dot(rest_d, rest_d) > 1e-8));
+    let d = line_across(point.direction, n);
+    let rest_d = line_across(point.rest_direction, rest_n);
     let b = cross(n, d) * select(1.0, -1.0, point.mirrored);
     let rest_b = cross(rest_n, rest_d);
     let orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -1009,7 +1029,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
     }
     if (HATCH_HAS_PENCIL && pattern == HATCH_PENCIL) {
         let height = paper(point.pixel / frame.line_scale);
-        ink = 0.9 * smoothstep(0.55 * height, 0.55 * height + 0.6, ink);
+        ink = GRAPHITE * smoothstep(0.55 * height, 0.55 * height + 0.6, pressed(ink));
     }
     if (pattern == HATCH_SOLID) {
         let slope = max(own * abs(hatch_tone(look, t + 0.5 * t_width, t_width) - hatch_tone(look, t - 0.5 * t_width, t_width)), 0.0001);
@@ -1019,7 +1039,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
 }
 
 fn hatch_point(in: HatchedSurface) -> HatchPoint {
-    return HatchPoint(in.p_in_world, unit(in.normal), in.direction, in.rest, in.rest_normal, in.rest_direction, in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
+    return HatchPoint(in.p_in_world, unit(in.normal), Line(in.direction, in.direction_mixed), in.rest, in.rest_normal, Line(in.rest_direction, in.rest_direction_mixed), in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
 }
 
 fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
@@ -1035,7 +1055,9 @@ fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
 }
 
 fn hatched_from_surface(s: Surface, rest: RestInput) -> HatchedSurface {
-    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, s.line_id, s.face, octahedral_unpack(rest.direction), rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), octahedral_unpack(rest.direction_at_rest));
+    let d = octahedral_unpack(rest.direction);
+    let rest_d = octahedral_unpack(rest.direction_at_rest);
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, d * d.yzx, s.line_id, s.face, d * d, rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), rest_d * rest_d, rest_d * rest_d.yzx);
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -1247,6 +1269,22 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     return light_at(light, p_in_world, normal);
 }
 
+fn line_across(line: Line, n: vec3f) -> vec3f {
+    let e = unit(any_across(n));
+    let f = cross(n, e);
+    let of_e = line_times(line, e);
+    let of_f = line_times(line, f);
+    let double = vec2f(dot(e, of_e) - dot(f, of_f), 2.0 * dot(e, of_f));
+    let strength = length(double);
+    var half = select(vec2f(double.x + strength, double.y), vec2f(double.y, strength - double.x), double.x < 0.0);
+    half = select(half, vec2f(1.0, 0.0), strength < 1e-6);
+    return (e * half.x + f * half.y) * inverseSqrt(dot(half, half));
+}
+
+fn line_times(line: Line, v: vec3f) -> vec3f {
+    return line.own * v + vec3f(line.mixed.x * v.y + line.mixed.z * v.z, line.mixed.x * v.x + line.mixed.y * v.z, line.mixed.z * v.x + line.mixed.y * v.y);
+}
+
 fn linear_from_display(c: vec3f) -> vec3f {
     let low = c / 12.92;
     let high = pow((max(c, vec3f(0.0)) + 0.055) / 1.055, vec3f(2.4));
@@ -1278,6 +1316,14 @@ fn lit_part(map: u32, at: vec2f, bound: f32, slope: vec2f, softness: f32) -> vec
         lit += vec3f(dot(free, vx * vy), dot(free, ux * vy), dot(free, vx * uy));
     }
     return lit;
+}
+
+fn lit_picture(row: u32, t: f32) -> vec3f {
+    let tone = ramp_picture(row, t);
+    if (!LIGHT_COLORS) {
+        return tone;
+    }
+    return mix(ramp_picture(row, 0.0), tone, light_color) * mix(vec3f(1.0), light_color, LIGHT_TINT * t);
 }
 
 fn look_index(in: Surface, base: vec3f) -> u32 {
@@ -1391,6 +1437,10 @@ fn material_sample(in: Surface) -> MaterialSample {
     return MaterialSample(base, alpha, emissive, look_index(in, base));
 }
 
+fn mean_color(parts: LightParts) -> vec3f {
+    return select(vec3f(1.0), parts.sum_color / max(parts.sum, 1e-6), parts.sum > 1e-6);
+}
+
 fn nearest_axes(x: vec3f) -> Axes {
     let m = abs(x);
     let greatest = max(m.x, max(m.y, m.z));
@@ -1437,6 +1487,10 @@ fn next_distance(i: u32, first: vec4f, p_in_world: vec3f, normal: vec3f, to_eye:
     }
     let reflected = reflected_view(i, p_in_world, normal, to_eye);
     return distance_on_ball(i, reflected, p_in_world, to_eye);
+}
+
+fn no_lights() -> LightParts {
+    return LightParts(0.0, 0.0, vec3f(1.0), vec3f(1.0), 0.0, vec3f(0.0));
 }
 
 fn normal_in_direction(direction: vec3f, layer: i32) -> vec3f {
@@ -1577,6 +1631,11 @@ fn points(pen: Pen, at: vec2f, at_dx: vec2f, at_dy: vec2f, share: f32) -> f32 {
     }
     let most = max(max(ink.x, ink.y), max(ink.z, ink.w));
     return select(most, 0.0, pen.darkness <= 0.0 || area <= 1e-36);
+}
+
+fn pressed(part: f32) -> f32 {
+    let both = sqrt(sqrt(saturate(vec2f(part, 1.0 - part))));
+    return 0.594 + 0.67 * (both.x - both.y) - 0.04 * part;
 }
 
 fn printed_color(color: vec3f, p_px: vec2f) -> vec3f {
@@ -1745,9 +1804,14 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var beam_color = vec3f(0.0);
     let first_term = light_term(lights[0], in.p_in_world, normal).term;
     var face_change = 0.0;
+    var parts = no_lights();
     for (var i = 0u; i < LIGHTS; i++) {
-        let share = lights[i].factors.x * light_term(lights[i], in.p_in_world, normal).term;
+        let term = light_term(lights[i], in.p_in_world, normal).term;
+        let share = lights[i].factors.x * term;
         sum += share;
+        if (LIGHT_COLORS && i + BEAM_LIGHTS < LIGHTS) {
+            parts = with_light(parts, lights[i].factors.x, term, lights[i].color.rgb);
+        }
         if (i + BEAM_LIGHTS >= LIGHTS) {
             beam_sum += share;
             beam_color += share * lights[i].color.rgb;
@@ -1770,6 +1834,10 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     }
     let sum_width = fwidth(sum);
     let picture_width = fwidth(picture);
+    var parts_width = 0.0;
+    if (LIGHT_COLORS) {
+        parts_width = fwidth(parts.best) + fwidth(parts.second);
+    }
     var own_width = sum_width;
     var outshone = 0.0;
     var beam_free = 0.0;
@@ -1823,6 +1891,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
             var beam_upper = 0.0;
             var beam_lower = 0.0;
             beam_color = vec3f(0.0);
+            parts = no_lights();
             for (var i = 0u; i < LIGHTS; i++) {
                 let weight = lights[i].factors.x;
                 let light = light_term(lights[i], in.p_in_world, normal);
@@ -1841,6 +1910,9 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
                     beam_color += weight * mix(capped, term, reached) * lights[i].color.rgb;
                 }
                 else {
+                    if (LIGHT_COLORS) {
+                        parts = with_light(parts, weight, mix(capped, term, reached), lights[i].color.rgb);
+                    }
                     reach += weight * reached;
                 }
                 key_reach = select(key_reach, reached, i == 0u);
@@ -1873,6 +1945,12 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     var in_light = 1.0;
     var color = base;
     if (OUTPUT != OUTPUT_BASE && (draw_flags & DRAW_UNLIT) == 0u) {
+        if (LIGHT_COLORS) {
+            light_color = strongest_color(parts, parts_width);
+            if ((look_flags & LOOK_SMOOTH_RAMP) != 0u) {
+                light_color = mean_color(parts);
+            }
+        }
         var beam = BeamShare(vec3f(0.0), vec3f(1.0), 0.0);
         if (BEAM_LIGHTS > 0u) {
             let width = free_width + 0.5 * gain * (own_width - sum_width);
@@ -2085,6 +2163,10 @@ fn strokes(pen: Pen, across: f32, slope: f32, ways: array<Way, 2>, share: vec3f,
     return select(min(ink, 1.0), 0.0, slope < 1e-20);
 }
 
+fn strongest_color(parts: LightParts, width: f32) -> vec3f {
+    return mix(parts.second_color, parts.best_color, saturate(0.5 + (parts.best - parts.second) / max(width, 0.0001)));
+}
+
 fn surface_coverage(in: Surface, front_facing: bool) -> vec4f {
     return highlight_coverage(in.p_in_world, facing_normal(in, front_facing), to_eye(frame, in.p_in_world));
 }
@@ -2170,11 +2252,13 @@ fn to_lamp(light: u32, p_in_world: vec3f) -> vec3f {
 }
 
 fn tone_color(look: u32, index: u32) -> RampColor {
-    let color = looks[look].tones[index].color;
-    if (looks[look].tones[index].replace > 0.5) {
-        return RampColor(vec3f(1.0 - color.a), color.rgb * color.a);
+    let tone = white_tone(look, index);
+    if (!LIGHT_COLORS || index == 0u) {
+        return tone;
     }
-    return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
+    let dark = white_tone(look, 0u);
+    let tint = mix(vec3f(1.0), light_color, LIGHT_TINT * f32(index) / f32(looks[look].tone_count - 1u));
+    return RampColor(mix(dark.factor, tone.factor, light_color) * tint, mix(dark.added, tone.added, light_color) * tint);
 }
 
 fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
@@ -2186,9 +2270,9 @@ fn tone_weight(look: u32, index: u32, t: f32, width: f32) -> f32 {
 fn toned(look: u32, base: vec3f, at: Tones, beam: BeamShare) -> vec3f {
     if ((looks[look].flags & LOOK_RAMP_IMAGE) != 0u) {
         brightest = 1.0;
-        var color = base * ramp_picture(looks[look].ramp_row, at.lit);
+        var color = base * lit_picture(looks[look].ramp_row, at.lit);
         if (SHADOWS) {
-            let dark = base * ramp_picture(looks[look].ramp_row, at.dark);
+            let dark = base * lit_picture(looks[look].ramp_row, at.dark);
             color = mix(dark, color, at.part);
         }
         return with_beams(color, beam);
@@ -2255,6 +2339,14 @@ fn way_along(way: vec3f, at: Frames, rest: vec3f) -> Way {
     return Way(dot(way, rest), length(vec2f(dot(way, at.right), dot(way, at.up))), abs(dot(way, at.along)));
 }
 
+fn white_tone(look: u32, index: u32) -> RampColor {
+    let color = looks[look].tones[index].color;
+    if (looks[look].tones[index].replace > 0.5) {
+        return RampColor(vec3f(1.0 - color.a), color.rgb * color.a);
+    }
+    return RampColor(mix(vec3f(1.0), color.rgb, color.a), vec3f(0.0));
+}
+
 fn with_beams(color: vec3f, beam: BeamShare) -> vec3f {
     if (BEAM_LIGHTS == 0u) {
         return color;
@@ -2276,6 +2368,13 @@ fn with_highlight(i: u32, below: vec4f, coverage: f32) -> vec4f {
 fn with_ink(color: vec4f, ink: vec4f, coverage: f32) -> vec4f {
     let strength = coverage * ink.a;
     return vec4f(color.rgb * mix(vec3f(1.0), ink.rgb, strength) + ink.rgb * strength * (1.0 - color.a), color.a + strength * (1.0 - color.a));
+}
+
+fn with_light(parts: LightParts, weight: f32, term: f32, color: vec3f) -> LightParts {
+    let part = weight * (0.5 + 0.5 * term);
+    let is_best = part > parts.best;
+    let is_second = !is_best && part > parts.second;
+    return LightParts(max(part, parts.best), select(select(parts.second, part, is_second), parts.best, is_best), select(parts.best_color, color, is_best), select(select(parts.second_color, color, is_second), parts.best_color, is_best), parts.sum + part, parts.sum_color + part * color);
 }
 
 fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
@@ -2453,6 +2552,8 @@ override IS_RESHAPED: bool = false;
 
 override LIGHTS: u32 = 1u;
 
+override LIGHT_COLORS: bool = false;
+
 override LINEAR_BLEND: bool = false;
 
 override ON_PANORAMA: bool = false;
@@ -2480,3 +2581,5 @@ override SHEEN: bool = false;
 override SPECULAR: bool = false;
 
 var<private> brightest: f32 = 1.0;
+
+var<private> light_color: vec3f = vec3f(1.0);

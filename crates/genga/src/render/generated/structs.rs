@@ -9,13 +9,14 @@ pub(crate) const BEAM_TWO_SIDED: u32 = 8u32;
 pub(crate) struct Beam {
     pub(crate) tones: [glam::Vec4; 8],
     pub(crate) places: [glam::Vec4; 4],
+    pub(crate) outline: glam::Vec4,
     pub(crate) flags: u32,
+    pub(crate) outline_width: f32,
     pub(crate) reserved_0: u32,
     pub(crate) reserved_1: u32,
-    pub(crate) reserved_2: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< Beam > () == 208, "size of Beam does not match WGSL"
+    std::mem::size_of::< Beam > () == 224, "size of Beam does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(Beam, tones) == 0, "offset of Beam.tones does not match WGSL"
@@ -25,19 +26,23 @@ const _: () = assert!(
     "offset of Beam.places does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Beam, flags) == 192, "offset of Beam.flags does not match WGSL"
+    std::mem::offset_of!(Beam, outline) == 192,
+    "offset of Beam.outline does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Beam, reserved_0) == 196,
+    std::mem::offset_of!(Beam, flags) == 208, "offset of Beam.flags does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Beam, outline_width) == 212,
+    "offset of Beam.outline_width does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(Beam, reserved_0) == 216,
     "offset of Beam.reserved_0 does not match WGSL"
 );
 const _: () = assert!(
-    std::mem::offset_of!(Beam, reserved_1) == 200,
+    std::mem::offset_of!(Beam, reserved_1) == 220,
     "offset of Beam.reserved_1 does not match WGSL"
-);
-const _: () = assert!(
-    std::mem::offset_of!(Beam, reserved_2) == 204,
-    "offset of Beam.reserved_2 does not match WGSL"
 );
 pub(crate) const COUNT_LINES: u32 = 2u32;
 pub(crate) const COUNT_PIECES: u32 = 0u32;

@@ -17,14 +17,27 @@ use crate::render::{
     targets::{BeamTargets, DEPTH_FORMAT, PAINT_FORMAT, Targets, paint_samples},
 };
 
+/// What is drawn of a beam, in this order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Part {
+    /// Depth alone.
+    Depth,
+    /// The colour of what is nearest.
+    Color,
+    /// Depth of the far side pushed out, and then its colour.
+    OutlineDepth,
+    Outline,
+}
+
 /// What a pipeline draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct Kind {
     samples: u32,
-    /// Depth alone, or the colour of what is nearest.
-    depth_only: bool,
+    part: Part,
     /// With the distance beside the colour.
     over_lines: bool,
+    /// The transform mirrors: triangles wind the other way.
+    mirrored: bool,
 }
 
 pub(crate) struct BeamPass {
@@ -94,10 +107,11 @@ impl BeamPass {
             pass.set_bind_group(0, &frame, &[]);
             for item in sorted(&prepared.beams.items, layer, aim.eye) {
                 pass.set_bind_group(1, &values, &[item.beam as u32 * DYNAMIC_STRIDE as u32]);
-                for depth_only in [true, false] {
-                    let kind = Kind { samples, depth_only, over_lines };
-                    pass.set_pipeline(&self.pipeline(device, kind));
-                    draw(&mut pass, prepared, item);
+                let all = [Part::Depth, Part::Color, Part::OutlineDepth, Part::Outline];
+                for &part in &all[..if item.outlined { 4 } else { 2 }] {
+                    let kind = |mirrored| Kind { samples, part, over_lines, mirrored };
+                    let pipeline = |mirrored| self.pipeline(device, kind(mirrored));
+                    draw(&mut pass, prepared, item, &pipeline);
                 }
             }
         }
@@ -116,28 +130,38 @@ impl BeamPass {
                 write_mask,
             })
         };
-        let mask =
-            if kind.depth_only { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
-        let entry = if kind.over_lines { "beam_over_fragment" } else { "beam_fragment" };
+        let depth_only = matches!(kind.part, Part::Depth | Part::OutlineDepth);
+        let mask = if depth_only { wgpu::ColorWrites::empty() } else { wgpu::ColorWrites::ALL };
+        let is_outline = matches!(kind.part, Part::OutlineDepth | Part::Outline);
+        let entry = match (is_outline, kind.over_lines) {
+            (false, false) => "beam_fragment",
+            (false, true) => "beam_over_fragment",
+            (true, false) => "outline_fragment",
+            (true, true) => "outline_over_fragment",
+        };
         let targets = [target(mask), target(mask)];
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("beams"),
             layout: Some(&self.layout),
             vertex: wgpu::VertexState {
                 module: &self.module,
-                entry_point: Some("beam_vertex"),
+                entry_point: Some(if is_outline { "outline_vertex" } else { "beam_vertex" }),
                 compilation_options: Default::default(),
                 buffers: &[wgpu::VertexBufferLayout {
                     array_stride: size_of::<WorldVertex>() as u64,
                     step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32],
+                    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32, 2 => Uint32],
                 }],
             },
-            primitive: wgpu::PrimitiveState::default(),
+            primitive: wgpu::PrimitiveState {
+                cull_mode: is_outline.then_some(wgpu::Face::Front),
+                front_face: if kind.mirrored { wgpu::FrontFace::Cw } else { wgpu::FrontFace::Ccw },
+                ..Default::default()
+            },
             depth_stencil: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,
-                depth_write_enabled: Some(kind.depth_only),
-                depth_compare: Some(if kind.depth_only {
+                depth_write_enabled: Some(depth_only),
+                depth_compare: Some(if depth_only {
                     wgpu::CompareFunction::Greater
                 } else {
                     wgpu::CompareFunction::Equal
@@ -182,8 +206,14 @@ fn sorted(items: &[BeamItem], layer: usize, eye: glam::Vec4) -> Vec<&BeamItem> {
     of_layer
 }
 
-fn draw(pass: &mut wgpu::RenderPass<'_>, prepared: &Prepared, item: &BeamItem) {
+fn draw(
+    pass: &mut wgpu::RenderPass<'_>,
+    prepared: &Prepared,
+    item: &BeamItem,
+    pipeline: &dyn Fn(bool) -> Arc<wgpu::RenderPipeline>,
+) {
     if item.index_count > 0 {
+        pass.set_pipeline(&pipeline(false));
         pass.set_vertex_buffer(0, prepared.beams.vertices.slice(..));
         pass.set_index_buffer(prepared.beams.indices.slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed(item.first_index..item.first_index + item.index_count, 0, 0..1);
@@ -192,6 +222,7 @@ fn draw(pass: &mut wgpu::RenderPass<'_>, prepared: &Prepared, item: &BeamItem) {
     for surface in prepared.draws.iter().filter(|surface| surface.beam == Some(item.beam)) {
         let world_at = u64::from(surface.world.first) * size_of::<WorldVertex>() as u64;
         let geometry = &prepared.geometry;
+        pass.set_pipeline(&pipeline(surface.mirrored));
         pass.set_vertex_buffer(0, geometry.world[surface.world.page].slice(world_at..));
         let indices = &geometry.indices[surface.chunk.indices.page];
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);

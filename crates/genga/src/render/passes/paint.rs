@@ -96,6 +96,7 @@ impl PaintPass {
         let lights = (own + prepared.beams.light_count()).min(MAX_LIGHTS) as u32;
         let beam_lights = lights - own as u32;
         let placed_lights = beam_lights > 0 || prepared.lights.iter().any(PlacedLight::has_place);
+        let light_colors = prepared.lights.iter().any(PlacedLight::has_color);
         let variant = |item: &DrawItem| {
             let highlights = highlight_variant(prepared, item, output);
             let shadows = prepared.shadows.any();
@@ -122,6 +123,7 @@ impl PaintPass {
                 lights,
                 beam_lights,
                 placed_lights,
+                light_colors,
                 ..Variant::of(item, samples)
             }
         };

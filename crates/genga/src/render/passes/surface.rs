@@ -44,6 +44,8 @@ pub(crate) struct Variant {
     pub(crate) beam_lights: u32,
     /// Whether any light stands somewhere.
     pub(crate) placed_lights: bool,
+    /// Whether any light but beams' has a colour.
+    pub(crate) light_colors: bool,
 }
 
 /// What the materials of a pipeline have; see `shaders/shading/material.wesl`.
@@ -121,6 +123,7 @@ impl Variant {
             lights: 0,
             beam_lights: 0,
             placed_lights: false,
+            light_colors: false,
         }
     }
 }
@@ -221,6 +224,7 @@ impl SurfacePipelines {
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),
             ("LIGHTS", f64::from(variant.lights)),
             ("PLACED_LIGHTS", yes(variant.placed_lights)),
+            ("LIGHT_COLORS", yes(variant.light_colors)),
             ("BEAM_LIGHTS", f64::from(variant.beam_lights)),
         ];
         let hatch_constants = [

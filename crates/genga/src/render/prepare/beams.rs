@@ -27,6 +27,8 @@ pub(crate) struct BeamItem {
     pub(crate) occluded: bool,
     /// Its number in the scene.
     pub(crate) beam: usize,
+    /// Whether it has a line round it.
+    pub(crate) outlined: bool,
     /// Marked surfaces have none of their own.
     pub(crate) first_index: u32,
     pub(crate) index_count: u32,
@@ -117,6 +119,7 @@ impl BeamData {
                 order: beam.order,
                 occluded: beam.occluded,
                 beam: number,
+                outlined: beam.outline.is_some_and(|outline| outline.width > 0.0),
                 first_index: first,
                 index_count: mesh.indices.len() as u32,
                 center: mesh.positions.iter().map(|p| *p / count).sum(),
@@ -155,6 +158,7 @@ fn packed(mesh: &BeamMesh) -> impl Iterator<Item = WorldVertex> + '_ {
         y: p.y,
         z: p.z,
         normal: octahedral_pack(*n),
+        smooth_normal: octahedral_pack(*n),
         ..bytemuck::Zeroable::zeroed()
     })
 }
@@ -175,6 +179,13 @@ fn beam_values(beam: &Beam, blend: BlendSpace) -> gpu::Beam {
         } else {
             Vec4::new(both.x, both.y, at, softness)
         };
+    }
+    if let Some(outline) = &beam.outline {
+        let [r, g, b, a] = outline.color.to_array();
+        let color = in_blend_space(Color { r, g, b, a }, blend);
+        let alpha = color.w * beam.opacity;
+        values.outline = (color.truncate() * alpha).extend(alpha);
+        values.outline_width = outline.width;
     }
     let flag = |on: bool, bit: u32| if on { bit } else { 0 };
     values.flags = flag(beam.smooth, gpu::BEAM_SMOOTH)

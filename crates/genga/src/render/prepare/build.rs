@@ -336,7 +336,7 @@ impl<'a> Builder<'a> {
         let draw_data = bindings::buffer(device, queue, "draws", stored, &self.draw_values);
         let look_data = bindings::buffer(device, queue, "looks", Usage::STORAGE, &self.looks.looks);
         let rule_data = bindings::buffer(device, queue, "rules", Usage::STORAGE, &self.looks.rules);
-        let lights = lights::placed_lights(self.scene, pose, &self.style.light);
+        let lights = lights::placed_lights(self.scene, pose, self.style);
         let no_light: Light = bytemuck::Zeroable::zeroed();
         let uniform = Usage::UNIFORM;
         let light_data =

@@ -49,8 +49,14 @@ pub(crate) fn of_primitives(
 
 /// Radius over which bends are averaged, as a part of the mesh's diagonal.
 const RADIUS: f32 = 0.04;
-/// Most rounds of averaging.
+/// Rounds of averaging.
+const MIN_ROUNDS: usize = 6;
 const MAX_ROUNDS: usize = 60;
+
+/// Most normals that are remembered of a place.
+const MAX_NORMALS: usize = 16;
+/// How far the normals of a flat part may be from their mean.
+const FLAT_DEG: f32 = 6.0;
 
 /// A line on the picture: the two ends are the same, so it is stored as d dᵀ, weighted.
 type Tensor = [f32; 6];
@@ -65,7 +71,7 @@ fn add(sum: &mut Tensor, t: &Tensor, weight: f32) {
     }
 }
 
-/// Places of a mesh, whatever its primitives and seams.
+/// Places of a mesh, whatever its primitives and seams; several where hard edges meet.
 struct Places {
     /// By primitive and vertex.
     of: Vec<Vec<u32>>,
@@ -76,22 +82,38 @@ struct Places {
     sides: Vec<[u32; 2]>,
 }
 
+/// Normals at one position that differ by less are of one surface, as on models of few flat faces
+/// that stand for something round; between others lies an edge.
+const HARD_DEG: f32 = 35.0;
+
 impl Places {
     fn new(mesh: &Mesh) -> Self {
-        let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+        // The places at each position, each with the normals seen there.
+        let mut known: HashMap<[u32; 3], Vec<u32>> = HashMap::new();
+        let mut seen: Vec<Vec<Vec3>> = Vec::new();
         let mut places =
             Self { of: Vec::new(), positions: Vec::new(), normals: Vec::new(), sides: Vec::new() };
+        let limit = HARD_DEG.to_radians().cos();
         for primitive in &mesh.primitives {
             let mut of = Vec::with_capacity(primitive.positions.len());
             for (p, n) in primitive.positions.iter().zip(&primitive.normals) {
                 // Both zeros are one place.
                 let key = (*p + Vec3::ZERO).to_array().map(f32::to_bits);
-                let place = *known.entry(key).or_insert(places.positions.len() as u32);
-                if place as usize == places.positions.len() {
+                let here = known.entry(key).or_default();
+                let near = |place: &&u32| seen[**place as usize].iter().any(|m| m.dot(*n) > limit);
+                let place = here.iter().find(near).copied().unwrap_or_else(|| {
+                    let place = places.positions.len() as u32;
                     places.positions.push(*p);
                     places.normals.push(Vec3::ZERO);
-                }
+                    seen.push(Vec::new());
+                    here.push(place);
+                    place
+                });
                 places.normals[place as usize] += *n;
+                let normals = &mut seen[place as usize];
+                if normals.len() < MAX_NORMALS && !normals.contains(n) {
+                    normals.push(*n);
+                }
                 of.push(place);
             }
             for corners in primitive.indices.chunks_exact(3) {
@@ -108,6 +130,70 @@ impl Places {
             *n = n.normalize_or(Vec3::Y);
         }
         places
+    }
+
+    /// For each place the number of its part: parts hang together without hard edges.
+    fn parts(&self) -> Vec<usize> {
+        let mut parts: Vec<usize> = (0..self.positions.len()).collect();
+        fn root(parts: &mut [usize], mut v: usize) -> usize {
+            while parts[v] != v {
+                parts[v] = parts[parts[v]];
+                v = parts[v];
+            }
+            v
+        }
+        for &[a, b] in &self.sides {
+            let (a, b) = (root(&mut parts, a as usize), root(&mut parts, b as usize));
+            parts[a.max(b)] = a.min(b);
+        }
+        (0..parts.len()).map(|v| root(&mut parts, v)).collect()
+    }
+
+    /// One direction for each flat part, by the place: that of its outline's longer sides, else
+    /// `prior`'s. `None` elsewhere: there the surface bends.
+    fn flat(&self, prior: &[Vec3]) -> Vec<Option<Vec3>> {
+        let parts = self.parts();
+        let count = self.positions.len();
+        let mut normals = vec![Vec3::ZERO; count];
+        for (&part, n) in parts.iter().zip(&self.normals) {
+            normals[part] += *n;
+        }
+        let mut is_flat = vec![true; count];
+        let limit = FLAT_DEG.to_radians().cos();
+        for (v, &part) in parts.iter().enumerate() {
+            is_flat[part] &= self.normals[v].dot(normals[part].normalize_or_zero()) > limit;
+        }
+        let mut uses: HashMap<[u32; 2], u32> = HashMap::new();
+        for &[a, b] in &self.sides {
+            *uses.entry([a.min(b), a.max(b)]).or_default() += 1;
+        }
+        let mut outlines = vec![[0.0; 6]; count];
+        let mut lengths = vec![0.0; count];
+        let mut edges: Vec<[u32; 2]> =
+            uses.iter().filter(|(_, uses)| **uses == 1).map(|(&edge, _)| edge).collect();
+        // A map has no order, and sums of floats have.
+        edges.sort_unstable();
+        for [a, b] in edges {
+            let part = parts[a as usize];
+            if is_flat[part] {
+                let step = self.positions[b as usize] - self.positions[a as usize];
+                let length = step.length();
+                add(&mut outlines[part], &tensor(step.normalize_or_zero(), length), 1.0);
+                lengths[part] += length;
+            }
+        }
+        for (v, &part) in parts.iter().enumerate() {
+            if v == part {
+                add(&mut outlines[v], &tensor(prior[v], 0.1 * lengths[v].max(1e-12)), 1.0);
+            }
+        }
+        let mut of_parts: HashMap<usize, Vec3> = HashMap::new();
+        let mut of = |&part: &usize| {
+            let n = normals[part].normalize_or(Vec3::Y);
+            let of_part = || between_borders(strongest(&outlines[part], n), n);
+            is_flat[part].then(|| *of_parts.entry(part).or_insert_with(of_part))
+        };
+        parts.iter().map(&mut of).collect()
     }
 
     /// How much and which way the surface bends at each place: the second fundamental form that fits
@@ -185,7 +271,7 @@ impl Places {
         let mean = self.sides.iter().map(length).sum::<f32>() / self.sides.len().max(1) as f32;
         let steps = RADIUS * low.distance(high) / mean.max(1e-12);
         // A walk of n steps goes √n far.
-        let rounds = ((steps * steps).ceil() as usize).clamp(2, MAX_ROUNDS);
+        let rounds = ((steps * steps).ceil() as usize).clamp(MIN_ROUNDS, MAX_ROUNDS);
         for _ in 0..rounds {
             let mut sums = values.clone();
             let mut counts = vec![1.0_f32; values.len()];
@@ -202,71 +288,64 @@ impl Places {
             *values = sums;
         }
     }
+}
 
-    /// The strongest direction of each place in its tangent plane.
-    fn strongest(&self, values: &[Tensor]) -> Vec<Vec3> {
-        let of = |(t, n): (&Tensor, &Vec3)| {
-            let (u, v) = n.any_orthonormal_pair();
-            let m = Mat3::from_cols(
-                Vec3::new(t[0], t[3], t[5]),
-                Vec3::new(t[3], t[1], t[4]),
-                Vec3::new(t[5], t[4], t[2]),
-            );
-            let (a, b, c) = (u.dot(m * u), u.dot(m * v), v.dot(m * v));
-            let angle = 0.5 * (2.0 * b).atan2(a - c);
-            u * angle.cos() + v * angle.sin()
-        };
-        values.iter().zip(&self.normals).map(of).collect()
-    }
+/// The strongest direction across a unit vector.
+fn strongest(t: &Tensor, n: Vec3) -> Vec3 {
+    let (u, v) = n.any_orthonormal_pair();
+    let m = Mat3::from_cols(
+        Vec3::new(t[0], t[3], t[5]),
+        Vec3::new(t[3], t[1], t[4]),
+        Vec3::new(t[5], t[4], t[2]),
+    );
+    let (a, b, c) = (u.dot(m * u), u.dot(m * v), v.dot(m * v));
+    let angle = 0.5 * (2.0 * b).atan2(a - c);
+    u * angle.cos() + v * angle.sin()
+}
 
-    /// Gives neighbours the same end of their lines, as far as the surface allows it: directions
-    /// are interpolated over triangles.
-    fn align(&self, directions: &mut [Vec3]) {
-        let mut first = vec![0_u32; directions.len() + 1];
-        for side in &self.sides {
-            side.iter().for_each(|&v| first[v as usize + 1] += 1);
-        }
-        for i in 0..directions.len() {
-            first[i + 1] += first[i];
-        }
-        let mut next = first.clone();
-        let mut neighbours = vec![0_u32; 2 * self.sides.len()];
-        for &[a, b] in &self.sides {
-            for (from, to) in [(a, b), (b, a)] {
-                let at = &mut next[from as usize];
-                neighbours[*at as usize] = to;
-                *at += 1;
-            }
-        }
-        let mut seen = vec![false; directions.len()];
-        let mut queue = std::collections::VecDeque::new();
-        for start in 0..directions.len() {
-            if std::mem::replace(&mut seen[start], true) {
-                continue;
-            }
-            queue.push_back(start);
-            while let Some(v) = queue.pop_front() {
-                for &w in &neighbours[first[v] as usize..first[v + 1] as usize] {
-                    let w = w as usize;
-                    if std::mem::replace(&mut seen[w], true) {
-                        continue;
-                    }
-                    if directions[v].dot(directions[w]) < 0.0 {
-                        directions[w] = -directions[w];
-                    }
-                    queue.push_back(w);
-                }
-            }
-        }
+/// The axes that strokes are cut out by, as `shaders/shading/hatch_surface.wesl` has them: whole numbers
+/// up to 2, of length 1, one of two opposite ones.
+fn axes() -> impl Iterator<Item = Vec3> {
+    let triple = |i: i32| [i / 25 - 2, i / 5 % 5 - 2, i % 5 - 2];
+    let is_axis = |v: &[i32; 3]| v.iter().any(|x| x % 2 != 0) && *v > [0; 3];
+    let unit = |v: [i32; 3]| Vec3::from(v.map(|x| x as f32)).normalize();
+    (0..125).map(triple).filter(is_axis).map(unit)
+}
+
+/// By how much the best axis has to be nearer than the second one for strokes of the best alone.
+const LEAD: f32 = 0.031;
+
+/// The direction next to a wanted one whose strokes are all of one axis: on a flat part they would
+/// be of two everywhere, if the wanted one happened to lie between both.
+fn between_borders(wanted: Vec3, n: Vec3) -> Vec3 {
+    let across = n.cross(wanted);
+    let snapped = axes().filter_map(|axis| (axis - n * n.dot(axis)).try_normalize());
+    let best = [across]
+        .into_iter()
+        .chain(snapped)
+        .filter(|across| lead(*across) > LEAD)
+        .max_by(|a, b| a.dot(across).abs().total_cmp(&b.dot(across).abs()));
+    best.map_or(wanted, |across| across.cross(n))
+}
+
+/// By how much the nearest axis is nearer than the second one.
+fn lead(across: Vec3) -> f32 {
+    let [mut first, mut second] = [0.0_f32; 2];
+    for axis in axes() {
+        let nearness = axis.dot(across).abs();
+        second = second.max(nearness.min(first));
+        first = first.max(nearness);
     }
+    first - second
 }
 
 /// Unit directions of the strokes of a mesh, by primitive and vertex, across the normals.
 fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
     let places = Places::new(mesh);
     let count = places.positions.len();
-    // Round the vertical, where nothing else is known.
-    let mut wanted: Vec<Vec3> = places.normals.iter().map(|n| Vec3::Y.cross(*n)).collect();
+    // Round the vertical, where nothing else is known, and to the side on what lies level.
+    let mut wanted: Vec<Vec3> =
+        places.normals.iter().map(|n| Vec3::Y.cross(*n) + 0.01 * Vec3::X).collect();
     let mut given = vec![Vec3::ZERO; count];
     for (primitive, of) in mesh.primitives.iter().zip(&places.of) {
         for (v, &place) in of.iter().enumerate() {
@@ -290,14 +369,19 @@ fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
         }
     }
     places.smooth(&mut values);
-    wanted = places.strongest(&values);
+    let flat = match source {
+        Source::Bone(_) => vec![None; count],
+        Source::Curvature | Source::Painted => places.flat(&wanted),
+    };
+    for (v, direction) in wanted.iter_mut().enumerate() {
+        *direction = flat[v].unwrap_or_else(|| strongest(&values[v], places.normals[v]));
+    }
     for ((direction, given), n) in wanted.iter_mut().zip(&given).zip(&places.normals) {
         let painted = *given - *n * n.dot(*given);
         if source == Source::Painted && painted.length() > 1e-6 {
             *direction = painted.normalize();
         }
     }
-    places.align(&mut wanted);
     places.of.iter().map(|of| of.iter().map(|&p| wanted[p as usize]).collect()).collect()
 }
 
@@ -355,5 +439,62 @@ mod tests {
             assert!(painted[v].y.abs() > 0.5, "{v}: {}", painted[v]);
         }
         assert!(of_primitives(&scene, &mesh(&primitive), &[None]).remove(0).is_empty());
+    }
+
+    #[test]
+    fn the_axes_are_those_of_the_shader() {
+        let all: Vec<Vec3> = axes().collect();
+        assert_eq!(all.len(), 49);
+        for (i, a) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|b| a.dot(*b).abs() < 0.999), "{a}");
+        }
+    }
+
+    #[test]
+    fn each_side_of_a_box_has_one_direction_along_its_longer_edges() {
+        for turn in
+            [glam::Quat::IDENTITY, glam::Quat::from_euler(glam::EulerRot::XYZ, 0.7, 0.4, 1.1)]
+        {
+            let mut primitive = shapes::cuboid(Vec3::new(3.0, 1.0, 2.0));
+            for v in primitive.positions.iter_mut().chain(&mut primitive.normals) {
+                *v = turn * *v;
+            }
+            let mesh = Mesh { primitives: vec![primitive.clone()], ..Mesh::default() };
+            let sources = [Some(Source::Curvature)];
+            let found = of_primitives(&Scene::default(), &mesh, &sources).remove(0);
+            for (v, n) in primitive.normals.iter().enumerate() {
+                let own = turn.inverse() * *n;
+                let longer = turn * if own.x.abs() > 0.5 { Vec3::Z } else { Vec3::X };
+                let cosine = found[v].dot(longer).abs();
+                // In the mesh's own axes, strokes are parallel to edges; else next to them.
+                let least = if turn == glam::Quat::IDENTITY { 0.9999 } else { 0.93 };
+                assert!(cosine > least, "{own}: {cosine}");
+                assert!(lead(n.cross(found[v])) > LEAD);
+                let same = |&w: &usize| primitive.normals[w] == *n;
+                let others = (0..found.len()).filter(same);
+                assert!(others.map(|w| found[w]).all(|d| d == found[v]));
+            }
+        }
+    }
+
+    #[test]
+    fn flat_faces_that_stand_for_something_round_are_hatched_as_such() {
+        // Twelve flat sides, 30° from each other.
+        let mut primitive = Primitive::default();
+        for i in 0..12_u32 {
+            let at = |i: u32, y: f32| {
+                let (sin, cos) = (i as f32 * std::f32::consts::TAU / 12.0).sin_cos();
+                Vec3::new(sin, y, cos)
+            };
+            let corners = [at(i, -0.4), at((i + 1) % 12, -0.4), at((i + 1) % 12, 0.4), at(i, 0.4)];
+            let n = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
+            primitive.positions.extend(corners);
+            primitive.normals.extend([n; 4]);
+            primitive.indices.extend([0, 1, 2, 0, 2, 3].map(|k| 4 * i + k));
+        }
+        let mesh = Mesh { primitives: vec![primitive], ..Mesh::default() };
+        let round = of_primitives(&Scene::default(), &mesh, &[Some(Source::Curvature)]).remove(0);
+        // Though each side is higher than wide.
+        assert!(round.iter().all(|d| d.y.abs() < 0.3), "{round:?}");
     }
 }

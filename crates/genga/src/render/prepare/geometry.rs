@@ -62,6 +62,12 @@ pub(crate) struct GeometryBuilder {
 /// Sets of texture coordinates that the materials of one primitive use, as (base, emissive).
 pub(crate) type UvSets = [usize; 2];
 
+/// A direction that is not along the normal: strokes that go by the light or an axis need one to know
+/// how the surface lies in the world.
+fn any_direction(normal: Vec3) -> Vec3 {
+    if normal.z.abs() > 0.9 { Vec3::X } else { Vec3::Z }
+}
+
 impl GeometryBuilder {
     pub(crate) fn new() -> Self {
         Self {
@@ -148,10 +154,13 @@ impl GeometryBuilder {
                 joints_23: joints[2] | joints[3] << 16,
                 weights_01: weights[0] | weights[1] << 16,
                 weights_23: weights[2] | weights[3] << 16,
-                hatch: directions
-                    .get(of)
-                    .and_then(|all| all.get(v))
-                    .map_or(0, |&direction| octahedral_pack(direction)),
+                hatch: octahedral_pack(
+                    directions
+                        .get(of)
+                        .and_then(|all| all.get(v))
+                        .copied()
+                        .unwrap_or_else(|| any_direction(primitive.normals[v])),
+                ),
             });
             let uv = |set: usize| {
                 let uv = primitive.uvs.get(set).and_then(|uvs| uvs.get(v));

@@ -3,8 +3,10 @@
 use glam::{Affine3A, Vec3, Vec4};
 
 use crate::render::generated::{LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SKY, LIGHT_SPOT, Light};
+use crate::render::prepare::looks::in_blend_space;
 use crate::scene::{LightKind, Pose, Scene};
-use crate::style::{PinnedTo, StyleLight};
+use crate::srgb::srgb_from_linear;
+use crate::style::{Color, PinnedTo, Style, StyleLight};
 
 /// A light of the scene with the place of its node.
 #[derive(Clone, Debug)]
@@ -16,9 +18,16 @@ pub(crate) struct PlacedLight {
     world_from_light: Affine3A,
     pinned_to_camera: bool,
     casts_shadow: bool,
+    /// In the blend space, the greatest channel 1.
+    color: Vec4,
 }
 
 impl PlacedLight {
+    /// Whether it is not white.
+    pub(crate) fn has_color(&self) -> bool {
+        self.color != Vec4::ONE
+    }
+
     /// Whether it shines from a place, and not from a direction.
     pub(crate) fn has_place(&self) -> bool {
         matches!(self.kind, LightKind::Point { .. } | LightKind::Spot { .. })
@@ -30,22 +39,30 @@ pub(crate) const MAX_LIGHTS: usize = 16;
 
 /// The lights of a posed scene, the strongest first and skies last; empty if the style's own light
 /// is to be used alone.
-pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &StyleLight) -> Vec<PlacedLight> {
-    if style.replace_model_lights {
+pub(crate) fn placed_lights(scene: &Scene, pose: &Pose, style: &Style) -> Vec<PlacedLight> {
+    if style.light.replace_model_lights {
         return Vec::new();
     }
     let nodes = scene.nodes.iter().enumerate().filter(|&(i, _)| pose.visible[i]);
     let mut lights: Vec<_> = nodes
         .filter_map(|(i, node)| {
             let light = scene.lights.get(node.light?)?;
-            let luminance = light.color.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+            // How bright a light is and its colour are told apart: a red one is as bright as a
+            // white one in red.
+            let brightest = light.color.max_element();
+            let [r, g, b] = (light.color / brightest).max(Vec3::ZERO).to_array().map(|c| {
+                // White is exactly 1: its pipelines know nothing of colours.
+                let displayed = if c < 1.0 { srgb_from_linear(c) } else { 1.0 };
+                1.0 + style.paint.light_color * (displayed - 1.0)
+            });
             Some(PlacedLight {
                 node: i,
                 kind: light.kind,
-                strength: (light.intensity * luminance).max(0.0),
+                strength: (light.intensity * brightest).max(0.0),
                 world_from_light: pose.world_from_node[i],
                 pinned_to_camera: light.pinned_to_camera,
                 casts_shadow: light.casts_shadow,
+                color: in_blend_space(Color { r, g, b, a: 1.0 }, style.paint.blend_space),
             })
         })
         .filter(|light| light.strength > 0.0)
@@ -111,7 +128,7 @@ pub(crate) fn lights_in_view(
                 shadow_first: 0,
                 shadow_maps: if light.casts_shadow { shadow_maps(light.kind) } else { 0 },
                 reserved_0: 0,
-                color: Vec4::ONE,
+                color: light.color,
             }
         }))
         .collect()

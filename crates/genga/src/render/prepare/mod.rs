@@ -237,7 +237,7 @@ impl Prepared {
             }
         }
         queue.write_buffer(&self.draw_data, 0, bytemuck::cast_slice(&self.draw_values));
-        self.lights = lights::placed_lights(scene, pose, &self.style.light);
+        self.lights = lights::placed_lights(scene, pose, &self.style);
         for (node, place) in self.anchors.values_mut() {
             *place = pose.world_from_node[*node].translation.into();
         }

@@ -201,7 +201,7 @@ pub(crate) fn maps_needed(scene: &Scene, pose: &Pose, style: &Style) -> [usize; 
     if !style.paint.shadow.enabled {
         return [0; 2];
     }
-    let placed = super::lights::placed_lights(scene, pose, &style.light);
+    let placed = super::lights::placed_lights(scene, pose, style);
     let lights = super::lights::lights_in_view(&placed, &style.light, &Affine3A::IDENTITY);
     let parallel =
         lights.iter().filter(|l| l.kind == LIGHT_DIRECTIONAL && l.shadow_maps > 0).count();
