@@ -198,8 +198,6 @@ const MAX_SLOPE: f32 = 12.0;
 
 const MAX_STEPS: f32 = 6.0;
 
-const METHOD_RIM: u32 = 4u;
-
 const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
@@ -1848,7 +1846,7 @@ fn shade(in: Surface, front_facing: bool) -> Shaded {
     }
     var rim = 0.0;
     var rim_width = 0.0;
-    if (frame.line_method == METHOD_RIM) {
+    if (RIM_LINE) {
         rim = dot(normal, to_eye(frame, in.p_in_world));
         rim_width = fwidth(rim);
     }
@@ -2379,7 +2377,10 @@ fn with_light(parts: LightParts, weight: f32, term: f32, color: vec3f) -> LightP
 
 fn with_rim(in: Surface, shaded: Shaded, color: vec4f) -> vec4f {
     let look_index = shaded.look;
-    if (frame.line_method != METHOD_RIM || looks[look_index].line_width <= 0.0) {
+    if (!RIM_LINE) {
+        return color;
+    }
+    if (looks[look_index].line_width <= 0.0) {
         return color;
     }
     let soft = max(max(looks[look_index].rim_softness, shaded.rim_width), 0.0001);
@@ -2569,6 +2570,8 @@ override PROXY_MESHES: bool = false;
 override REPLACES: bool = false;
 
 override RIM_LIGHT: bool = false;
+
+override RIM_LINE: bool = false;
 
 override SHADE_PICTURES: bool = false;
 

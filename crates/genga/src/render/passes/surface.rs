@@ -219,6 +219,7 @@ impl SurfacePipelines {
             ("SHEEN", yes(variant.features.sheen)),
             ("PALETTE", yes(variant.features.palette)),
             ("DOTS", yes(variant.features.dots)),
+            ("RIM_LINE", yes(variant.features.rim_line)),
             ("SHADE_PICTURES", yes(variant.features.shade_pictures)),
             ("EDITED_SHADING", yes(variant.edited_shading)),
             ("LINEAR_BLEND", yes(variant.features.linear_blend)),

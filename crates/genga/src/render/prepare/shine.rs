@@ -6,7 +6,7 @@ use super::looks::in_blend_space;
 use crate::render::generated::{self as gpu, PaletteColor};
 use crate::srgb::linear_from_srgb;
 use crate::style::{
-    BlendSpace, Color, Dots, RimLight, Sheen, ShineBlend, Specular, SpecularForm, Style,
+    BlendSpace, Color, Dots, LineMethod, RimLight, Sheen, ShineBlend, Specular, SpecularForm, Style,
 };
 
 /// Which features of `shaders/shading/shine.wesl` and `print.wesl` a pipeline has.
@@ -20,6 +20,8 @@ pub(crate) struct Features {
     pub(crate) shade_pictures: bool,
     /// Colours are mixed in linear light.
     pub(crate) linear_blend: bool,
+    /// Lines are made of the rim.
+    pub(crate) rim_line: bool,
 }
 
 impl Features {
@@ -34,6 +36,7 @@ impl Features {
             dots: paint.dots.is_some(),
             shade_pictures: paint.shade_map.is_some() || overrides().any(|o| o.shade_map.is_some()),
             linear_blend: paint.blend_space == BlendSpace::Linear,
+            rim_line: style.lines.method == LineMethod::Rim,
         }
     }
 
