@@ -1014,8 +1014,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
     if (HATCH_HAS_STROKES) {
         let is_stroked = pattern == HATCH_STROKES || pattern == HATCH_CROSS || pattern == HATCH_PENCIL;
         ink = select(0.0, 1.0, is_stroked && darkness >= BLACK);
-        let runs = select(0u, 1u, is_stroked && darkness > 0.0 && darkness < BLACK);
-        for (var run = 0u; run < runs; run++) {
+        if (is_stroked && darkness > 0.0 && darkness < BLACK) {
             ink = stroke_ink(look, pen, lum, point);
         }
     }
@@ -1248,13 +1247,18 @@ fn light_reach(light: u32, receiver: Receiver, to_light: vec3f, matters: bool) -
     let short = select(footing.px, footing.py, is_wide);
     let places = clamp(ceil(length(long) / LONGEST_STEP), 1.0, MAX_STEPS);
     let is_seen = matters && footing.is_inside;
-    let count = select(0.0, places, is_seen);
+    let count = select(1.0, places, is_seen);
     var sum = 0.0;
-    for (var i = 0.5; i < count; i += 1.0) {
+    var i = 0.5;
+    loop {
         let step = long * (i / places - 0.5);
         let lit = lit_part(map, footing.at + step, footing.bound + dot(footing.slope, step), footing.slope, footing.softness);
         let width = length(vec2f(dot(lit.yz, long) / places, dot(lit.yz, short)));
         sum += saturate((lit.x - 0.5) / max(width, 0.001) + 0.5);
+        i += 1.0;
+        if (i >= count) {
+            break;
+        }
     }
     return select(1.0, sum / places, is_seen);
 }
@@ -2183,18 +2187,30 @@ fn surface_picture(pen: Pen, at: Frames, rest: vec3f) -> f32 {
     let first = min(0.5 + 0.5 * axes.lead / BORDER, 1.0);
     let tone = saturate(pen.darkness);
     var open = 1.0;
-    for (var i = 0u; i < select(1u, 2u, first < 1.0); i++) {
+    let axes_count = select(1u, 2u, first < 1.0);
+    var i = 0u;
+    loop {
         let axis = select(axes.best, axes.second, i == 1u);
         let side = axis_side(axis);
         let other = cross(axis, side);
         let lead = abs(dot(side, at.along)) - abs(dot(other, at.along));
         let better = min(0.5 + 0.5 * abs(lead) / TURN, 1.0);
-        for (var j = 0u; j < select(1u, 2u, better < 1.0); j++) {
+        let ways_count = select(1u, 2u, better < 1.0);
+        var j = 0u;
+        loop {
             let along = select(other, side, (lead > 0.0) != (j == 1u));
             let share = select(first, 1.0 - first, i == 1u) * select(better, 1.0 - better, j == 1u);
             var part = pen;
             part.darkness = 1.0 - pow(1.0 - tone, share);
             open *= 1.0 - image_ink(part, vec2f(dot(along, rest), dot(axis, rest)), vec2f(dot(along, at.right), dot(axis, at.right)), vec2f(dot(along, at.up), dot(axis, at.up)));
+            j += 1u;
+            if (j >= ways_count) {
+                break;
+            }
+        }
+        i += 1u;
+        if (i >= axes_count) {
+            break;
         }
     }
     return 1.0 - open;
@@ -2206,11 +2222,9 @@ fn surface_points(pen: Pen, rest: vec3f, normal: vec3f, right: vec3f, up: vec3f)
     var shares = saturate((facing - greatest) / HANDED_OVER + 1.0);
     shares /= shares.x + shares.y + shares.z;
     var open = 1.0;
-    for (var i = 0u; i < 3u; i++) {
+    var i = 0u;
+    loop {
         let most = max(shares.x, max(shares.y, shares.z));
-        if (most < 0.002) {
-            break;
-        }
         let on_x = shares.x == most;
         let on_y = !on_x && shares.y == most;
         let p = select(select(rest.xy, rest.zx, on_y), rest.yz, on_x);
@@ -2218,6 +2232,10 @@ fn surface_points(pen: Pen, rest: vec3f, normal: vec3f, right: vec3f, up: vec3f)
         let dy = select(select(up.xy, up.zx, on_y), up.yz, on_x);
         open *= 1.0 - points(pen, p, dx, dy, most);
         shares = select(shares, vec3f(0.0), vec3<bool>(on_x, on_y, !(on_x || on_y)));
+        i += 1u;
+        if (i >= 3u || max(shares.x, max(shares.y, shares.z)) < 0.002) {
+            break;
+        }
     }
     return max(1.0 - open, saturate((pen.darkness - 1.0) * 8.0));
 }
@@ -2227,14 +2245,19 @@ fn surface_strokes(pen: Pen, at: Frames, rest: vec3f, share: f32, salt: u32) -> 
     let lead = 0.5 * axes.lead / BORDER;
     let jitter = 0.25 * pen.irregularity;
     let parts = vec2f(0.5 + lead, 0.5 - lead);
-    let count = select(1u, 2u, parts.y > -jitter);
+    let count = select(1u, 2u, parts.y > -jitter && share > 0.0);
     var open = 1.0;
-    for (var i = 0u; i < select(0u, count, share > 0.0); i++) {
+    var i = 0u;
+    loop {
         let axis = select(axes.best, axes.second, i == 1u);
         let part = select(parts.x, parts.y, i == 1u);
         open *= 1.0 - plane_strokes(pen, at, rest, axis, vec3f(part, jitter, share), salt);
+        i += 1u;
+        if (i >= count) {
+            break;
+        }
     }
-    return 1.0 - open;
+    return select(0.0, 1.0 - open, share > 0.0);
 }
 
 fn to_eye(frame: Frame, p_in_world: vec3f) -> vec3f {
