@@ -50,7 +50,7 @@ const CURVE_SCREEN_CURVATURE: u32 = 2u;
 
 const CURVE_TAPER: u32 = 4u;
 
-const CUSP: f32 = 10.0;
+const CUSP: f32 = 12.0;
 
 const CUSP_TIP: f32 = 0.22;
 
