@@ -186,3 +186,29 @@ fn a_cast_shadow_has_no_colour_of_the_light_that_it_keeps_off() {
     });
     assert!(counts.iter().all(|&count| count > 100), "in shadow and lit: {counts:?}");
 }
+
+/// A lamp dims nothing that it does not reach, but without a sun that is in the shade.
+#[test]
+fn what_a_lamp_does_not_reach_is_as_without_it() {
+    let style = style(
+        "[lines]\nmethod = \"none\"\n[paint.ramp]\nstops = [{ at = 0, color = \"#404040\" }, \
+         { at = 0.5, color = \"#ffffff\" }]",
+    );
+    let lit = |sun: bool, lamp: bool| {
+        let mut scene = Builder::new();
+        scene.object("ball", shapes::uv_sphere(96, 48, 0.9), None, Transform::default());
+        if sun {
+            scene.light(light(LightKind::Directional, 1.0), 5.0 * LEFT);
+        }
+        if lamp {
+            scene.light(light(LightKind::Point { range: Some(0.5) }, 1.0), 5.0 * RIGHT);
+        }
+        draw(&scene.build(), &style, &view())
+    };
+    let [sun, both, lamp] = [lit(true, false), lit(true, true), lit(false, true)];
+    let off = |(x, y)| sun.at(x, y).iter().zip(both.at(x, y)).map(|(a, b)| a.abs_diff(b)).max();
+    let largest = sun.places().into_iter().filter_map(off).max();
+    assert!(largest <= Some(1), "the lamp changes what the sun gives by {largest:?}");
+    let middle = |picture: &Picture| picture.at(64, 64)[0];
+    assert_eq!((middle(&sun), middle(&lamp)), (255, 64));
+}

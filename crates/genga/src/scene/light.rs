@@ -7,7 +7,8 @@ pub enum LightKind {
     Directional,
     /// From the node's origin in all directions.
     Point {
-        /// Distance in metres beyond which it gives no light; `None` for no limit.
+        /// Distance in metres beyond which it gives no light; `None` for no limit. There is shade, or
+        /// what a directional light of the scene gives.
         range: Option<f32>,
     },
     /// A cone along the node's −Z.

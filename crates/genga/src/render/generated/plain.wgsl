@@ -286,7 +286,7 @@ fn light_at(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     if (light.kind == LIGHT_BEAM) {
         return LightTerm(falloff * max(dot(normal, to_light), 0.0), to_light);
     }
-    return LightTerm(mix(-1.0, dot(normal, to_light), falloff), to_light);
+    return LightTerm(mix(light.direction.w, dot(normal, to_light), falloff), to_light);
 }
 
 fn light_share(light: Light, p_in_world: vec3f, normal: vec3f) -> f32 {

@@ -93,6 +93,9 @@ pub(crate) fn lights_in_view(
     let placed = &placed[..light_count(placed) - usize::from(!has_own)];
     let of_style = if has_own { 0.0 } else { 1.0 };
     let total = of_style + placed.iter().map(|light| light.strength).sum::<f32>();
+    // Out of a lamp's reach is shade, like a surface turned away, but what the sun shines on is lit.
+    let has_sun = placed.iter().any(|light| light.kind == LightKind::Directional);
+    let beyond_reach = if has_sun { 0.0 } else { -1.0 };
     let of_style = (!has_own).then(|| style_light(style, of_style / total, world_from_camera));
     of_style
         .into_iter()
@@ -117,7 +120,7 @@ pub(crate) fn lights_in_view(
             };
             Light {
                 position: Vec3::from(frame.translation).extend(1.0),
-                direction: direction.extend(0.0),
+                direction: direction.extend(beyond_reach),
                 factors: Vec4::new(
                     light.strength / total,
                     range.unwrap_or(0.0),
