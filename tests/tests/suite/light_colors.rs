@@ -207,7 +207,7 @@ fn what_a_lamp_does_not_reach_is_as_without_it() {
     };
     let [sun, both, lamp] = [lit(true, false), lit(true, true), lit(false, true)];
     let off = |(x, y)| sun.at(x, y).iter().zip(both.at(x, y)).map(|(a, b)| a.abs_diff(b)).max();
-    let largest = sun.places().into_iter().filter_map(off).max();
+    let largest = sun.places().filter_map(off).max();
     assert!(largest <= Some(1), "the lamp changes what the sun gives by {largest:?}");
     let middle = |picture: &Picture| picture.at(64, 64)[0];
     assert_eq!((middle(&sun), middle(&lamp)), (255, 64));
