@@ -359,11 +359,15 @@ fn ending(end: u32) -> Ending {
 
 fn goes_on(end: u32) -> bool {
     let reach = (1.5 + 2.0 / min(frame.gbuffer_scale, 1.0)) * ahead_of(end);
+    if (is_marked(tip_of(end) + reach)) {
+        return true;
+    }
     let across = vec2f(-reach.y, reach.x);
-    let is_contour = pieces[end >> 1u].own_step > 0.0;
-    let is_ahead = is_marked(tip_of(end) + reach);
-    let is_beside = is_marked(tip_of(end) + 0.7 * (reach + across)) || is_marked(tip_of(end) + 0.7 * (reach - across));
-    return is_ahead || (is_contour && is_beside);
+    let sides = array(tip_of(end) + 0.7 * (reach + across), tip_of(end) + 0.7 * (reach - across));
+    let owner = pieces[end >> 1u].owner;
+    let seen = (ids_at(tip_of(end) + reach) ^ owner) | (ids_at(sides[0]) ^ owner) | (ids_at(sides[1]) ^ owner);
+    let is_met = is_marked(sides[0]) || is_marked(sides[1]) || (seen & ID_OBJECT) != 0u;
+    return pieces[end >> 1u].own_step > 0.0 && is_met;
 }
 
 fn handed_over(radius: f32, away: f32, onward: u32) -> f32 {
