@@ -48,7 +48,8 @@ struct RestVertex {
     joints_23: u32,
     weights_01: u32,
     weights_23: u32,
-    hatch: u32
+    hatch: u32,
+    hatch_turning: u32
 }
 
 struct WorldVertex {

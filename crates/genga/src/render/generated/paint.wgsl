@@ -84,6 +84,8 @@ var clamped: sampler;
 @group(2) @binding(5)
 var repeated: sampler;
 
+const AXIS_ANGLE: f32 = 0.31;
+
 const BASE_COLOR: u32 = 1u;
 
 const BASE_PRODUCT: u32 = 2u;
@@ -94,7 +96,7 @@ const BEAM_TINT: f32 = 0.5;
 
 const BLACK: f32 = 1.3;
 
-const BORDER: f32 = 0.03;
+const BORDER: f32 = 0.007;
 
 const CELLS: f32 = 30.0;
 
@@ -202,6 +204,8 @@ const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
+const NO_ROOM: f32 = 1.0;
+
 const OCTAVES: u32 = 4u;
 
 const OUTPUT_BASE: u32 = 3u;
@@ -219,6 +223,8 @@ const OUTPUT_SHADOW: u32 = 5u;
 const OUTPUT_TONE: u32 = 4u;
 
 const OUTSHINES: f32 = 0.5;
+
+const ROOM: f32 = 2.4;
 
 const RULE_BASE_COLOR: u32 = 1u;
 
@@ -346,7 +352,8 @@ struct Frames {
     along: vec3f,
     across: vec3f,
     right: vec3f,
-    up: vec3f
+    up: vec3f,
+    turning: f32
 }
 
 struct Glance {
@@ -399,6 +406,7 @@ struct HatchPoint {
     uv_dx: vec2f,
     uv_dy: vec2f,
     pixel: vec2f,
+    turning: vec2f,
     rest_scale: f32,
     mirrored: bool
 }
@@ -411,30 +419,26 @@ struct HatchedSurface {
     @location(1)
     normal: vec3f,
     @location(2)
-    base_uv: vec2f,
+    uvs: vec4f,
     @location(3)
-    emissive_uv: vec2f,
+    id_uv_marks: vec4f,
     @location(4)
-    id_uv: vec2f,
-    @location(5)
     color: vec4f,
-    @location(6)
-    marks: vec2f,
-    @location(7)
-    direction_mixed: vec3f,
-    @location(8) @interpolate(flat)
+    @location(5) @interpolate(flat)
     line_id: u32,
-    @location(9) @interpolate(flat)
+    @location(6) @interpolate(flat)
     face: vec4f,
-    @location(10)
+    @location(7)
     direction: vec3f,
+    @location(8)
+    direction_mixed: vec3f,
+    @location(9)
+    rest: vec4f,
+    @location(10)
+    rest_normal: vec4f,
     @location(11)
-    rest: vec3f,
-    @location(12)
-    rest_normal: vec3f,
-    @location(13)
     rest_direction: vec3f,
-    @location(14)
+    @location(12)
     rest_direction_mixed: vec3f
 }
 
@@ -596,7 +600,9 @@ struct RestInput {
     @location(10)
     normal_at_rest: u32,
     @location(11)
-    direction_at_rest: u32
+    direction_at_rest: u32,
+    @location(12)
+    turning: vec2f
 }
 
 struct RimLight {
@@ -913,8 +919,9 @@ fn footprint(frame: Frame, distance: f32) -> f32 {
 fn frames(look: u32, point: HatchPoint) -> Frames {
     let n = point.normal;
     let rest_n = unit(point.rest_normal);
-    let d = line_across(point.direction, n);
-    let rest_d = line_across(point.rest_direction, rest_n);
+    let d = line_across(point.direction, n).xyz;
+    let rest_line = line_across(point.rest_direction, rest_n);
+    let rest_d = rest_line.xyz;
     let b = cross(n, d) * select(1.0, -1.0, point.mirrored);
     let rest_b = cross(rest_n, rest_d);
     let orthographic = (frame.flags & FRAME_ORTHOGRAPHIC) != 0u;
@@ -944,7 +951,7 @@ fn frames(look: u32, point: HatchPoint) -> Frames {
     way *= inverseSqrt(max(dot(way, way), 1e-12));
     let turn = looks[look].hatch.turn.xy;
     way = vec2f(way.x * turn.x - way.y * turn.y, way.x * turn.y + way.y * turn.x);
-    return Frames(rest_d * way.x + rest_b * way.y, rest_b * way.x - rest_d * way.y, rest_d * dot(d, right) + rest_b * dot(b, right), rest_d * dot(d, up) + rest_b * dot(b, up));
+    return Frames(rest_d * way.x + rest_b * way.y, rest_b * way.x - rest_d * way.y, rest_d * dot(d, right) + rest_b * dot(b, right), rest_d * dot(d, up) + rest_b * dot(b, up), size * length(way.yx * point.turning) / max(rest_line.w, 0.05));
 }
 
 fn glance_at(p_in_world: vec3f, normal: vec3f, to_eye: vec3f, to_light: vec3f) -> Glance {
@@ -1036,7 +1043,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
 }
 
 fn hatch_point(in: HatchedSurface) -> HatchPoint {
-    return HatchPoint(in.p_in_world, unit(in.normal), Line(in.direction, in.direction_mixed), in.rest, in.rest_normal, Line(in.rest_direction, in.rest_direction_mixed), in.id_uv, dpdx(in.id_uv) * frame.paint_scale, dpdy(in.id_uv) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
+    return HatchPoint(in.p_in_world, unit(in.normal), Line(in.direction, in.direction_mixed), in.rest.xyz, in.rest_normal.xyz, Line(in.rest_direction, in.rest_direction_mixed), in.id_uv_marks.xy, dpdx(in.id_uv_marks.xy) * frame.paint_scale, dpdy(in.id_uv_marks.xy) * frame.paint_scale, in.clip.xy / frame.paint_scale + frame.tile_origin, vec2f(in.rest.w, in.rest_normal.w), draws[drawn.draw].rest_scale, (draws[drawn.draw].flags & DRAW_MIRRORED) != 0u);
 }
 
 fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
@@ -1054,7 +1061,7 @@ fn hatch_tone(look: u32, t: f32, width: f32) -> f32 {
 fn hatched_from_surface(s: Surface, rest: RestInput) -> HatchedSurface {
     let d = octahedral_unpack(rest.direction);
     let rest_d = octahedral_unpack(rest.direction_at_rest);
-    return HatchedSurface(s.clip, s.p_in_world, s.normal, s.base_uv, s.emissive_uv, s.id_uv, s.color, s.marks, d * d.yzx, s.line_id, s.face, d * d, rest.p_at_rest, octahedral_unpack(rest.normal_at_rest), rest_d * rest_d, rest_d * rest_d.yzx);
+    return HatchedSurface(s.clip, s.p_in_world, s.normal, vec4f(s.base_uv, s.emissive_uv), vec4f(s.id_uv, s.marks), s.color, s.line_id, s.face, d * d, d * d.yzx, vec4f(rest.p_at_rest, rest.turning.x), vec4f(octahedral_unpack(rest.normal_at_rest), rest.turning.y), rest_d * rest_d, rest_d * rest_d.yzx);
 }
 
 fn highlight_coverage(p_in_world: vec3f, normal: vec3f, to_eye: vec3f) -> vec4f {
@@ -1271,7 +1278,7 @@ fn light_term(light: Light, p_in_world: vec3f, normal: vec3f) -> LightTerm {
     return light_at(light, p_in_world, normal);
 }
 
-fn line_across(line: Line, n: vec3f) -> vec3f {
+fn line_across(line: Line, n: vec3f) -> vec4f {
     let e = unit(any_across(n));
     let f = cross(n, e);
     let of_e = line_times(line, e);
@@ -1280,7 +1287,7 @@ fn line_across(line: Line, n: vec3f) -> vec3f {
     let strength = length(double);
     var half = select(vec2f(double.x + strength, double.y), vec2f(double.y, strength - double.x), double.x < 0.0);
     half = select(half, vec2f(1.0, 0.0), strength < 1e-6);
-    return (e * half.x + f * half.y) * inverseSqrt(dot(half, half));
+    return vec4f((e * half.x + f * half.y) * inverseSqrt(dot(half, half)), strength);
 }
 
 fn line_times(line: Line, v: vec3f) -> vec3f {
@@ -2113,10 +2120,11 @@ fn stroke_ink(look: u32, pen: Pen, lum: f32, point: HatchPoint) -> f32 {
     }
     if (HATCH_HAS_SURFACE && looks[look].hatch.mapping == HATCH_ON_SURFACE) {
         let at = frames(look, point);
-        ink = surface_strokes(pen, at, point.rest, 1.0 - crossed, 0u);
+        let clean = without_crumbs(pen, at);
+        ink = surface_strokes(clean, at, point.rest, 1.0 - crossed, 0u);
         if (HATCH_HAS_CROSS) {
-            let way = Frames(at.along * cross_turn.x + at.across * cross_turn.y, at.across * cross_turn.x - at.along * cross_turn.y, at.right, at.up);
-            let over = surface_strokes(pen, way, point.rest, crossed, 1374496523u);
+            let way = Frames(at.along * cross_turn.x + at.across * cross_turn.y, at.across * cross_turn.x - at.along * cross_turn.y, at.right, at.up, at.turning);
+            let over = surface_strokes(clean, way, point.rest, crossed, 1374496523u);
             ink = 1.0 - (1.0 - ink) * (1.0 - over);
         }
     }
@@ -2179,7 +2187,7 @@ fn surface_from_vertex(in: VertexInput, texels_per_pixel: f32) -> Surface {
 }
 
 fn surface_of(in: HatchedSurface) -> Surface {
-    return Surface(in.clip, in.p_in_world, in.normal, in.base_uv, in.emissive_uv, in.id_uv, in.color, in.marks, in.line_id, in.face);
+    return Surface(in.clip, in.p_in_world, in.normal, in.uvs.xy, in.uvs.zw, in.id_uv_marks.xy, in.color, in.id_uv_marks.zw, in.line_id, in.face);
 }
 
 fn surface_picture(pen: Pen, at: Frames, rest: vec3f) -> f32 {
@@ -2436,6 +2444,13 @@ fn with_shine(look: u32, glance: Glance, below: vec4f, reach: f32, shown: f32) -
         }
     }
     return color;
+}
+
+fn without_crumbs(pen: Pen, at: Frames) -> Pen {
+    var clean = pen;
+    let crumbs = smoothstep(1.0 / ROOM, 1.0 / NO_ROOM, at.turning * pen.spacing / AXIS_ANGLE);
+    clean.darkness = 1.0 - (1.0 - pen.darkness) * (1.0 + 2.0 * crumbs);
+    return clean;
 }
 
 @fragment

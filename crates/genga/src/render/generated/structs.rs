@@ -1359,9 +1359,10 @@ pub(crate) struct RestVertex {
     pub(crate) weights_01: u32,
     pub(crate) weights_23: u32,
     pub(crate) hatch: u32,
+    pub(crate) hatch_turning: u32,
 }
 const _: () = assert!(
-    std::mem::size_of::< RestVertex > () == 44, "size of RestVertex does not match WGSL"
+    std::mem::size_of::< RestVertex > () == 48, "size of RestVertex does not match WGSL"
 );
 const _: () = assert!(
     std::mem::offset_of!(RestVertex, x) == 0,
@@ -1406,6 +1407,10 @@ const _: () = assert!(
 const _: () = assert!(
     std::mem::offset_of!(RestVertex, hatch) == 40,
     "offset of RestVertex.hatch does not match WGSL"
+);
+const _: () = assert!(
+    std::mem::offset_of!(RestVertex, hatch_turning) == 44,
+    "offset of RestVertex.hatch_turning does not match WGSL"
 );
 #[repr(C)]
 #[derive(Debug, Copy, Clone, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]

@@ -339,6 +339,11 @@ static VERTEX_BUFFERS: [wgpu::VertexBufferLayout<'_>; 3] = [
             attribute(9, wgpu::VertexFormat::Float32x3, 0),
             attribute(10, wgpu::VertexFormat::Uint32, std::mem::offset_of!(RestVertex, normal)),
             attribute(11, wgpu::VertexFormat::Uint32, std::mem::offset_of!(RestVertex, hatch)),
+            attribute(
+                12,
+                wgpu::VertexFormat::Float16x2,
+                std::mem::offset_of!(RestVertex, hatch_turning),
+            ),
         ],
     },
 ];

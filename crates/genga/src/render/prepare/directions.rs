@@ -5,8 +5,19 @@ use std::collections::HashMap;
 
 use glam::{Mat3, Vec2, Vec3};
 
+use super::{stroke_axes::between_borders, turning::turning};
 use crate::scene::{Mesh, Primitive, Scene};
 use crate::style::HatchDirection;
+
+/// Strokes at a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Direction {
+    /// Unit, across the normal.
+    pub(crate) along: Vec3,
+    /// How fast that turns over the surface, and the direction across it, in radians a unit of the
+    /// mesh's space.
+    pub(crate) turning: [f32; 2],
+}
 
 /// Where a mesh's directions come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,8 +48,8 @@ pub(crate) fn of_primitives(
     scene: &Scene,
     mesh: &Mesh,
     sources: &[Option<Source>],
-) -> Vec<Vec<Vec3>> {
-    let mut known: HashMap<Source, Vec<Vec<Vec3>>> = HashMap::new();
+) -> Vec<Vec<Direction>> {
+    let mut known: HashMap<Source, Vec<Vec<Direction>>> = HashMap::new();
     let of = |(p, source): (usize, &Option<Source>)| {
         let source = (*source)?;
         let all = known.entry(source).or_insert_with(|| directions(scene, mesh, source));
@@ -303,44 +314,8 @@ fn strongest(t: &Tensor, n: Vec3) -> Vec3 {
     u * angle.cos() + v * angle.sin()
 }
 
-/// The axes that strokes are cut out by, as `shaders/shading/hatch_surface.wesl` has them: whole numbers
-/// up to 2, of length 1, one of two opposite ones.
-fn axes() -> impl Iterator<Item = Vec3> {
-    let triple = |i: i32| [i / 25 - 2, i / 5 % 5 - 2, i % 5 - 2];
-    let is_axis = |v: &[i32; 3]| v.iter().any(|x| x % 2 != 0) && *v > [0; 3];
-    let unit = |v: [i32; 3]| Vec3::from(v.map(|x| x as f32)).normalize();
-    (0..125).map(triple).filter(is_axis).map(unit)
-}
-
-/// By how much the best axis has to be nearer than the second one for strokes of the best alone.
-const LEAD: f32 = 0.031;
-
-/// The direction next to a wanted one whose strokes are all of one axis: on a flat part they would
-/// be of two everywhere, if the wanted one happened to lie between both.
-fn between_borders(wanted: Vec3, n: Vec3) -> Vec3 {
-    let across = n.cross(wanted);
-    let snapped = axes().filter_map(|axis| (axis - n * n.dot(axis)).try_normalize());
-    let best = [across]
-        .into_iter()
-        .chain(snapped)
-        .filter(|across| lead(*across) > LEAD)
-        .max_by(|a, b| a.dot(across).abs().total_cmp(&b.dot(across).abs()));
-    best.map_or(wanted, |across| across.cross(n))
-}
-
-/// By how much the nearest axis is nearer than the second one.
-fn lead(across: Vec3) -> f32 {
-    let [mut first, mut second] = [0.0_f32; 2];
-    for axis in axes() {
-        let nearness = axis.dot(across).abs();
-        second = second.max(nearness.min(first));
-        first = first.max(nearness);
-    }
-    first - second
-}
-
-/// Unit directions of the strokes of a mesh, by primitive and vertex, across the normals.
-fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
+/// Directions of the strokes of a mesh, by primitive and vertex.
+fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Direction>> {
     let places = Places::new(mesh);
     let count = places.positions.len();
     // Round the vertical, where nothing else is known, and to the side on what lies level.
@@ -382,7 +357,20 @@ fn directions(scene: &Scene, mesh: &Mesh, source: Source) -> Vec<Vec<Vec3>> {
             *direction = painted.normalize();
         }
     }
-    places.of.iter().map(|of| of.iter().map(|&p| wanted[p as usize]).collect()).collect()
+    let across: Vec<Vec3> = places.normals.iter().zip(&wanted).map(|(n, d)| n.cross(*d)).collect();
+    let triangles = || {
+        mesh.primitives.iter().zip(&places.of).flat_map(|(primitive, of)| {
+            let corners = |t: &[u32]| [0, 1, 2].map(|i| of[t[i] as usize]);
+            primitive.indices.chunks_exact(3).map(corners)
+        })
+    };
+    let turning_of = |lines: &[Vec3]| turning(&places.positions, lines, triangles());
+    let (turning, across) = (turning_of(&wanted), turning_of(&across));
+    let of_place = |&p: &u32| {
+        let p = p as usize;
+        Direction { along: wanted[p], turning: [turning[p], across[p]] }
+    };
+    places.of.iter().map(|of| of.iter().map(of_place).collect()).collect()
 }
 
 /// From the joint that moves a vertex most to its child, at rest; 0 if there is none.
@@ -417,6 +405,7 @@ fn bone_direction(scene: &Scene, skin: usize, primitive: &Primitive, vertex: usi
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::prepare::stroke_axes::{LEAD, lead};
     use crate::shapes;
 
     #[test]
@@ -429,25 +418,19 @@ mod tests {
         let sources = [Some(Source::Curvature)];
         let round = of_primitives(&scene, &mesh(&primitive), &sources).remove(0);
         for v in (0..round.len()).filter(|&v| on_side(&primitive, v)) {
-            assert!((round[v].length() - 1.0).abs() < 1e-4);
-            assert!(round[v].y.abs() < 0.5, "{v}: {}", round[v]);
+            assert!((round[v].along.length() - 1.0).abs() < 1e-4);
+            assert!(round[v].along.y.abs() < 0.5, "{v}: {:?}", round[v]);
         }
+        // Strokes round it turn with it, and what is across them does not turn.
+        let turning = round[(0..round.len()).find(|&v| on_side(&primitive, v)).unwrap()].turning;
+        assert!(turning[0] > 2.0 && turning[1] < 0.3 * turning[0], "{turning:?}");
         primitive.hatch_directions = vec![Vec3::Y * 3.0; primitive.positions.len()];
         let sources = [Some(Source::Painted)];
         let painted = of_primitives(&scene, &mesh(&primitive), &sources).remove(0);
         for v in (0..painted.len()).filter(|&v| on_side(&primitive, v)) {
-            assert!(painted[v].y.abs() > 0.5, "{v}: {}", painted[v]);
+            assert!(painted[v].along.y.abs() > 0.5, "{v}: {:?}", painted[v]);
         }
         assert!(of_primitives(&scene, &mesh(&primitive), &[None]).remove(0).is_empty());
-    }
-
-    #[test]
-    fn the_axes_are_those_of_the_shader() {
-        let all: Vec<Vec3> = axes().collect();
-        assert_eq!(all.len(), 49);
-        for (i, a) in all.iter().enumerate() {
-            assert!(all[..i].iter().all(|b| a.dot(*b).abs() < 0.999), "{a}");
-        }
     }
 
     #[test]
@@ -465,14 +448,14 @@ mod tests {
             for (v, n) in primitive.normals.iter().enumerate() {
                 let own = turn.inverse() * *n;
                 let longer = turn * if own.x.abs() > 0.5 { Vec3::Z } else { Vec3::X };
-                let cosine = found[v].dot(longer).abs();
+                let cosine = found[v].along.dot(longer).abs();
                 // In the mesh's own axes, strokes are parallel to edges; else next to them.
                 let least = if turn == glam::Quat::IDENTITY { 0.9999 } else { 0.93 };
                 assert!(cosine > least, "{own}: {cosine}");
-                assert!(lead(n.cross(found[v])) > LEAD);
+                assert!(lead(n.cross(found[v].along)) > LEAD);
                 let same = |&w: &usize| primitive.normals[w] == *n;
-                let others = (0..found.len()).filter(same);
-                assert!(others.map(|w| found[w]).all(|d| d == found[v]));
+                let mut others = (0..found.len()).filter(same);
+                assert!(others.all(|w| found[w] == found[v]));
             }
         }
     }
@@ -495,6 +478,6 @@ mod tests {
         let mesh = Mesh { primitives: vec![primitive], ..Mesh::default() };
         let round = of_primitives(&Scene::default(), &mesh, &[Some(Source::Curvature)]).remove(0);
         // Though each side is higher than wide.
-        assert!(round.iter().all(|d| d.y.abs() < 0.3), "{round:?}");
+        assert!(round.iter().all(|d| d.along.y.abs() < 0.3), "{round:?}");
     }
 }

@@ -3,6 +3,7 @@
 use glam::{Vec3, Vec4};
 
 use super::{
+    directions::Direction,
     pages::{PAGE_BYTES, Pages, Place},
     topology::{LineEdge, Topology},
 };
@@ -89,7 +90,7 @@ impl GeometryBuilder {
         &mut self,
         mesh: &Mesh,
         uv_sets: &[UvSets],
-        directions: &[Vec<Vec3>],
+        directions: &[Vec<Direction>],
     ) -> Vec<Vec<Chunk>> {
         let topology = Topology::new(mesh);
         let mut edges = topology.edges.as_slice();
@@ -122,7 +123,7 @@ impl GeometryBuilder {
         mesh: &Mesh,
         own_primitive: usize,
         topology: &Topology,
-        (uv_sets, directions): (UvSets, &[Vec<Vec3>]),
+        (uv_sets, directions): (UvSets, &[Vec<Direction>]),
         part: &Part,
     ) -> Chunk {
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -143,6 +144,9 @@ impl GeometryBuilder {
             let line_width = primitive.line_widths.get(v).map_or(1.0, |w| w.clamp(0.0, 100.0));
             self.max_line_width = self.max_line_width.max(line_width);
             let half = |x: f32| u32::from(half::f16::from_f32(x).to_bits());
+            let direction = directions.get(of).and_then(|all| all.get(v));
+            // The largest half float is 65504.
+            let turning = direction.map_or([0.0; 2], |d| d.turning).map(|x| x.min(6e4));
             rest.push(RestVertex {
                 x: p.x,
                 y: p.y,
@@ -155,12 +159,9 @@ impl GeometryBuilder {
                 weights_01: weights[0] | weights[1] << 16,
                 weights_23: weights[2] | weights[3] << 16,
                 hatch: octahedral_pack(
-                    directions
-                        .get(of)
-                        .and_then(|all| all.get(v))
-                        .copied()
-                        .unwrap_or_else(|| any_direction(primitive.normals[v])),
+                    direction.map_or_else(|| any_direction(primitive.normals[v]), |d| d.along),
                 ),
+                hatch_turning: half(turning[0]) | half(turning[1]) << 16,
             });
             let uv = |set: usize| {
                 let uv = primitive.uvs.get(set).and_then(|uvs| uvs.get(v));

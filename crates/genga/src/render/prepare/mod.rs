@@ -16,9 +16,11 @@ pub(crate) mod shine;
 mod smears;
 pub(crate) mod speed_lines;
 mod stipple;
+mod stroke_axes;
 pub(crate) mod strokes;
 mod textures;
 pub(crate) mod topology;
+mod turning;
 pub(crate) mod waves;
 
 use std::collections::HashMap;
