@@ -216,3 +216,25 @@ fn strokes_of_a_hand_cover_the_asked_tone() {
         assert!((coverage - tone).abs() <= 0.02, "tone {tone}: {coverage:.3}");
     }
 }
+
+#[test]
+fn small_forms_have_blacks_but_no_crumbs_of_light_strokes() {
+    let scene = subjects::standing("sphere");
+    let covered = |spacing: u32, lum: f64| {
+        let style = hatching(
+            &format!(
+                "pattern = \"strokes\"\nspacing = {spacing}\ntones = [{{ at = 0, lum = {lum} }}]"
+            ),
+            256,
+        );
+        let frame = Frame::draw(&scene, &Pose::rest(&scene), &style, &subjects::front(256));
+        let seen = (0..256 * 256).filter(|i| frame.seen(i % 256, i / 256).is_some()).count();
+        frame.ink.iter().sum::<f64>() / seen as f64
+    };
+    // A tone of a half, where the sphere has room for many strokes of one direction, and for one.
+    let (large, small) = (covered(3, 0.5), covered(60, 0.5));
+    assert!((large - 0.5).abs() < 0.05, "{large:.3}");
+    assert!(small < 0.6 * large, "{small:.3} of {large:.3}");
+    let black = covered(60, 0.2);
+    assert!(black > 0.97, "{black:.3}");
+}

@@ -204,7 +204,7 @@ const MIN_WIDTH: f32 = 0.0001;
 
 const NORMAL_MAP_SIZE: f32 = 64.0;
 
-const NO_ROOM: f32 = 1.0;
+const NO_ROOM: f32 = 0.8;
 
 const OCTAVES: u32 = 4u;
 
@@ -224,7 +224,9 @@ const OUTPUT_TONE: u32 = 4u;
 
 const OUTSHINES: f32 = 0.5;
 
-const ROOM: f32 = 2.4;
+const ROOM: f32 = 1.6;
+
+const RUBBED: f32 = 0.3;
 
 const RULE_BASE_COLOR: u32 = 1u;
 
@@ -1032,6 +1034,7 @@ fn hatch_ink(look: u32, t: f32, t_width: f32, own_tone: f32, point: HatchPoint) 
         ink = screen_dots(look, darkness, point.pixel);
     }
     if (HATCH_HAS_PENCIL && pattern == HATCH_PENCIL) {
+        ink = mix(ink, saturate(darkness), RUBBED);
         let height = paper(point.pixel / frame.line_scale);
         ink = GRAPHITE * smoothstep(0.55 * height, 0.55 * height + 0.6, pressed(ink));
     }
@@ -2449,7 +2452,7 @@ fn with_shine(look: u32, glance: Glance, below: vec4f, reach: f32, shown: f32) -
 fn without_crumbs(pen: Pen, at: Frames) -> Pen {
     var clean = pen;
     let crumbs = smoothstep(1.0 / ROOM, 1.0 / NO_ROOM, at.turning * pen.spacing / AXIS_ANGLE);
-    clean.darkness = 1.0 - (1.0 - pen.darkness) * (1.0 + 2.0 * crumbs);
+    clean.darkness = 1.0 - (1.0 - pen.darkness) * (1.0 + crumbs);
     return clean;
 }
 
