@@ -204,16 +204,21 @@ fn strokes_are_no_comb() {
 
 #[test]
 fn strokes_of_a_hand_cover_the_asked_tone() {
-    for i in 1_u8..=9 {
-        let tone = f64::from(i) / 10.0;
-        let toml = format!(
-            "pattern = \"strokes\"\nspacing = 8\ntones = [{{ at = 0, lum = {} }}]",
-            0.75 - 0.5 * tone
-        );
-        let style = hatching(&toml, 256);
-        let at = |step: u8| planes::measure(&style, (0.125 * f32::from(step)).exp2(), 0.0).coverage;
-        let coverage = (0..8).map(at).sum::<f64>() / 8.0;
-        assert!((coverage - tone).abs() <= 0.02, "tone {tone}: {coverage:.3}");
+    let hands = [("", 1), ("irregularity = 0.75", 2), ("irregularity = 1", 2)];
+    for (hand, every) in hands {
+        for i in (1_u8..=9).step_by(every) {
+            let tone = f64::from(i) / 10.0;
+            let toml = format!(
+                "pattern = \"strokes\"\nspacing = 8\n{hand}\ntones = [{{ at = 0, lum = {} }}]",
+                0.75 - 0.5 * tone
+            );
+            let style = hatching(&toml, 256);
+            let at =
+                |step: u8| planes::measure(&style, (0.125 * f32::from(step)).exp2(), 0.0).coverage;
+            let coverage = (0..8).map(at).sum::<f64>() / 8.0;
+            let off = (coverage - tone).abs();
+            assert!(off <= 0.02, "{hand} tone {tone}: {coverage:.3}");
+        }
     }
 }
 

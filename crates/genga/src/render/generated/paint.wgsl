@@ -798,7 +798,9 @@ fn changed_half(half: vec3f, scale: vec2f, turn: vec2f, translate: vec2f, split:
 fn darkness_for(wanted: f32, loose: f32) -> f32 {
     let d = max(wanted, 0.0);
     let more = (0.5 - 0.17 * loose) * loose * d * max(1.0 + (0.2 - 0.05 * loose) * loose - d, 0.0);
-    return wanted + more / (d + 0.13 * loose + 1e-6);
+    let off = (vec2f(d) - vec2f(0.1, 0.7)) / vec2f(0.14, 0.25);
+    let less = max(2.0 * loose - 1.0, 0.0) * dot(vec2f(0.034, 0.028), saturate(vec2f(1.0) - off * off));
+    return wanted + more / (d + 0.13 * loose + 1e-6) - less;
 }
 
 fn display_from_linear(c: vec3f) -> vec3f {
