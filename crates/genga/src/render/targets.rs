@@ -219,6 +219,7 @@ impl Targets {
         let paint = scaled(size.paint_scale);
         let gbuffer = size.gbuffer();
         let texels = gbuffer.map(|n| n as usize).iter().product::<usize>();
+        let pixels = size.pixels.map(|n| n as usize).iter().product::<usize>();
         let stored = |label, bytes: usize| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -260,7 +261,7 @@ impl Targets {
                 ]
             }),
             no_colors: target(device, "no line colours", [1, 1], 1, LINE_COLOR_FORMAT, read),
-            marks: stored("marked texels", 4 * texels.div_ceil(32)),
+            marks: stored("marked pixels", 4 * pixels.div_ceil(32)),
             // A quarter of all texels is far more than pictures have.
             seam_texels: stored("seam texels", 4 * (texels / 4 + 64)),
             glow: glow_target(device, size),

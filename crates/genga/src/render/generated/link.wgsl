@@ -44,6 +44,8 @@ const FRAME_ORTHOGRAPHIC: u32 = 2u;
 
 const FRAME_SCREEN_CURVATURE: u32 = 256u;
 
+const FRAME_SMALL_DETECTION: u32 = 512u;
+
 const GAP_DEPTH: f32 = 4.0;
 
 const HEADING_REACH: f32 = 4.0;
@@ -455,7 +457,7 @@ fn smoothed(end: u32) -> vec2f {
         let is_met = (pieces[end >> 1u].sets & meets) != 0u;
         let way = p - place_from(end, 3.0 * texel);
         let unit = way * inverseSqrt(max(dot(way, way), 1e-12));
-        if (!is_met) {
+        if (!is_met && (frame.flags & FRAME_SMALL_DETECTION) == 0u) {
             return p;
         }
         return p + unit * seam_end(p, unit, SEAM_GAP * texel);

@@ -316,7 +316,10 @@ fn in_space(t: f32) -> f32 {
 }
 
 fn is_marked(at: vec2i) -> bool {
-    let size = vec2i(textureDimensions(ids));
+    let size = vec2i(textureDimensions(depths));
+    if (any(at < vec2i(0)) || any(at >= size)) {
+        return false;
+    }
     let index = u32(at.y * size.x + at.x);
     return ((atomicLoad(&marks[index >> 5u]) >> (index & 31u)) & 1u) != 0u;
 }
@@ -325,6 +328,12 @@ fn is_on_line(side: i32, at: vec2i) -> bool {
     let first = at + select(select(vec2i(0), vec2i(0, 1), side == 1), vec2i(1, 0), side == 3);
     let second = first + select(vec2i(1, 0), vec2i(0, 1), side >= 2);
     return is_marked(first) && is_marked(second);
+}
+
+fn is_place_on_line(side: Side) -> bool {
+    let at = side.p_px - frame.tile_origin;
+    let off = select(0.5 / frame.gbuffer_scale, 0.0, side.is_fine);
+    return is_marked(vec2i(floor(at))) || is_marked(vec2i(floor(at + vec2f(off, 0.0)))) || is_marked(vec2i(floor(at - vec2f(off, 0.0)))) || is_marked(vec2i(floor(at + vec2f(0.0, off)))) || is_marked(vec2i(floor(at - vec2f(0.0, off))));
 }
 
 fn is_same(a: vec2u, b: vec2u) -> bool {
@@ -399,7 +408,8 @@ fn side_between(c: vec2i, q: vec2i) -> Side {
     let step = q - c;
     let id_b = textureLoad(ids, clamped(c - step), 0).xy;
     let id_a = textureLoad(ids, clamped(q + step), 0).xy;
-    if (is_same(id_b, id_q) || is_same(id_a, id_c)) {
+    let is_small = (frame.flags & FRAME_SMALL_DETECTION) != 0u;
+    if (!is_small && (is_same(id_b, id_q) || is_same(id_a, id_c))) {
         types = 0u;
     }
     let n_c = normal_of(c);
@@ -464,11 +474,19 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
     if (any(across >= vec2i(textureDimensions(ids)))) {
         return;
     }
-    if (is_marked(at) && is_marked(right) && is_marked(below) && is_marked(across)) {
+    let is_small = (frame.flags & FRAME_SMALL_DETECTION) != 0u;
+    if (!is_small && is_marked(at) && is_marked(right) && is_marked(below) && is_marked(across)) {
         return;
     }
     var sides = array<Side, 4>(side_between(at, right), side_between(below, across), side_between(at, below), side_between(right, across));
     var keys = array<vec2u, 4>(side_key(at, 0u), side_key(below, 0u), side_key(at, 1u), side_key(right, 1u));
+    if (is_small) {
+        for (var i = 0; i < 4; i++) {
+            if (sides[i].types != 0u && is_place_on_line(sides[i])) {
+                sides[i].types = 0u;
+            }
+        }
+    }
     var strong = 0u;
     for (var i = 0; i < 4; i++) {
         strong += select(0u, 1u, is_strong(sides[i]));
@@ -543,13 +561,13 @@ fn find_seams(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
                 line.depth_a = sides[i].depth;
                 line.key_a = keys[i];
                 is_first = false;
-                meets |= select(0u, PIECE_MEETS_A, is_on_line(i, at));
+                meets |= select(0u, PIECE_MEETS_A, !is_small && is_on_line(i, at));
             }
             else {
                 line.b = sides[i].p_px;
                 line.depth_b = sides[i].depth;
                 line.key_b = keys[i];
-                meets |= select(0u, PIECE_MEETS_B, is_on_line(i, at));
+                meets |= select(0u, PIECE_MEETS_B, !is_small && is_on_line(i, at));
             }
         }
         append(0.0, 1.0, vec2f(width), sets | meets, 0u, line.key_a, line.key_b);

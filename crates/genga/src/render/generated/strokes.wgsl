@@ -74,6 +74,8 @@ const MAX_RADIUS: f32 = 256.0;
 
 const NEAR_LINE: f32 = 1.25;
 
+const ONWARD: f32 = 3.5;
+
 const ON_SURFACE: f32 = 2.0;
 
 const PIECE_CLOSED: u32 = 1024u;
@@ -358,15 +360,17 @@ fn ending(end: u32) -> Ending {
 }
 
 fn goes_on(end: u32) -> bool {
-    let reach = (1.5 + 2.0 / min(frame.gbuffer_scale, 1.0)) * ahead_of(end);
+    let reach = ONWARD * ahead_of(end);
     if (is_marked(tip_of(end) + reach)) {
         return true;
     }
+    let texels = (1.5 + 2.0 / min(frame.gbuffer_scale, 1.0)) / ONWARD;
     let across = vec2f(-reach.y, reach.x);
-    let sides = array(tip_of(end) + 0.7 * (reach + across), tip_of(end) + 0.7 * (reach - across));
+    let sides = array(0.7 * (reach + across), 0.7 * (reach - across));
     let owner = pieces[end >> 1u].owner;
-    let seen = (ids_at(tip_of(end) + reach) ^ owner) | (ids_at(sides[0]) ^ owner) | (ids_at(sides[1]) ^ owner);
-    let is_met = is_marked(sides[0]) || is_marked(sides[1]) || (seen & ID_OBJECT) != 0u;
+    let tip = tip_of(end);
+    let seen = (ids_at(tip + texels * reach) ^ owner) | (ids_at(tip + texels * sides[0]) ^ owner) | (ids_at(tip + texels * sides[1]) ^ owner);
+    let is_met = is_marked(tip + sides[0]) || is_marked(tip + sides[1]) || (seen & ID_OBJECT) != 0u;
     return pieces[end >> 1u].own_step > 0.0 && is_met;
 }
 
@@ -503,12 +507,12 @@ fn is_covered(p_px: vec2f, spine_px: vec2f, line_depth: f32, owner: u32, own_ste
 }
 
 fn is_marked(p_px: vec2f) -> bool {
-    let size = vec2i(textureDimensions(ids));
-    let texel = vec2i(floor((p_px - frame.tile_origin) * frame.gbuffer_scale));
-    if (any(texel < vec2i(0)) || any(texel >= size)) {
+    let size = vec2i(textureDimensions(depths));
+    let at = vec2i(floor(p_px - frame.tile_origin));
+    if (any(at < vec2i(0)) || any(at >= size)) {
         return false;
     }
-    let index = u32(texel.y * size.x + texel.x);
+    let index = u32(at.y * size.x + at.x);
     return ((marks[index >> 5u] >> (index & 31u)) & 1u) != 0u;
 }
 

@@ -51,6 +51,8 @@ const ID_SETS_SHIFT: u32 = 24u;
 
 const ID_THROUGH_SHIFT: u32 = 28u;
 
+const INNER_SIDE: f32 = 0.5;
+
 const IN_FRONT: f32 = 2.0;
 
 const LIGHT_BEAM: u32 = 4u;
@@ -421,6 +423,13 @@ fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     return frame.depth_range.x / max(depth, 1e-30);
 }
 
+fn gone_on(texel: vec2i, pixel: vec2f) -> f32 {
+    let middle = floor((vec2f(texel) + 0.5) / frame.gbuffer_scale + frame.tile_origin);
+    let depth = depth_at(middle);
+    let slope = vec2f(common_slope(depth - depth_at(middle - vec2f(1.0, 0.0)), depth_at(middle + vec2f(1.0, 0.0)) - depth), common_slope(depth - depth_at(middle - vec2f(0.0, 1.0)), depth_at(middle + vec2f(0.0, 1.0)) - depth));
+    return depth + dot(slope, pixel - middle);
+}
+
 fn in_space(t: f32) -> f32 {
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         return t;
@@ -435,15 +444,29 @@ fn inner_key(order: u32, at: u32) -> vec2u {
 fn is_own_near(p_px: vec2f) -> bool {
     let size = vec2i(textureDimensions(ids));
     let middle = texel_of(p_px);
+    var own = vec2i(-1);
+    var other = vec2i(-1);
     for (var i = 0; i < 9; i++) {
-        let pick = (i + 4) % 9;
+        let pick = (array<i32, 9>(4, 1, 3, 5, 7, 0, 2, 6, 8))[i];
         let at = clamp(middle + vec2i(pick % 3 - 1, pick / 3 - 1), vec2i(0), size - 1);
         let found = textureLoad(ids, at, 0).xy;
-        if (((found.x ^ line.owner) & ID_OBJECT) == 0u && (found.y & 65535u) == line.material) {
-            return true;
+        if (((found.x ^ line.owner) & ID_OBJECT) == 0u) {
+            if (own.x < 0 && (found.y & 65535u) == line.material) {
+                own = at;
+            }
+        }
+        else if (other.x < 0 && found.x != 0u) {
+            other = at;
         }
     }
-    return false;
+    if ((frame.flags & FRAME_SMALL_DETECTION) == 0u || own.x < 0 || other.x < 0) {
+        return own.x >= 0;
+    }
+    let inner = floor(p_px - INNER_SIDE * line.outward);
+    let depth = depth_at(inner);
+    let miss_own = abs(gone_on(own, inner) - depth);
+    let miss_other = abs(gone_on(other, inner) - depth);
+    return miss_own <= miss_other;
 }
 
 fn is_turned_away(p_px: vec2f) -> bool {
@@ -637,18 +660,15 @@ fn look_width(p_px: vec2f, is_covered: bool) -> f32 {
 }
 
 fn mark(p_px: vec2f) {
-    let size = vec2i(textureDimensions(ids));
-    let place = (p_px - frame.tile_origin) * frame.gbuffer_scale;
-    let middle = texel_of(p_px);
-    let reach = 1.2 + 0.4 * frame.gbuffer_scale;
-    for (var y = max(middle.y - 1, 0); y <= min(middle.y + 1, size.y - 1); y++) {
-        for (var x = max(middle.x - 1, 0); x <= min(middle.x + 1, size.x - 1); x++) {
-            if (any(abs(vec2f(vec2i(x, y)) + 0.5 - place) > vec2f(reach))) {
-                continue;
-            }
-            let index = u32(y * size.x + x);
-            atomicOr(&marks[index >> 5u], 1u << (index & 31u));
+    let size = vec2i(textureDimensions(depths));
+    let middle = vec2i(floor(p_px - frame.tile_origin));
+    for (var i = 0; i < 9; i++) {
+        let at = middle + vec2i(i % 3 - 1, i / 3 - 1);
+        if (any(at < vec2i(0)) || any(at >= size)) {
+            continue;
         }
+        let index = u32(at.y * size.x + at.x);
+        atomicOr(&marks[index >> 5u], 1u << (index & 31u));
     }
 }
 
