@@ -104,6 +104,8 @@ const CLEARANCE: f32 = 4.0;
 
 const COARSE: f32 = 576.0;
 
+const DENSE: f32 = 0.7;
+
 const DEPTH_OFFSET: f32 = 1.0;
 
 const DRAW_ALPHA_BLEND: u32 = 4u;
@@ -2454,7 +2456,7 @@ fn with_shine(look: u32, glance: Glance, below: vec4f, reach: f32, shown: f32) -
 fn without_crumbs(pen: Pen, at: Frames) -> Pen {
     var clean = pen;
     let crumbs = smoothstep(1.0 / ROOM, 1.0 / NO_ROOM, at.turning * pen.spacing / AXIS_ANGLE);
-    clean.darkness = 1.0 - (1.0 - pen.darkness) * (1.0 + crumbs);
+    clean.darkness = pen.darkness + crumbs * (pen.darkness - DENSE);
     return clean;
 }
 
