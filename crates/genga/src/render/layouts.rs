@@ -134,6 +134,7 @@ impl Layouts {
                     (8, B::Float),
                     (9, B::StorageWrite),
                     (10, B::Storage),
+                    (11, B::Float),
                 ],
             ),
             strokes: layout(

@@ -193,7 +193,7 @@ fn difference(c: Texel, q: Texel, size: vec2i) -> u32 {
     let depth_a = textureLoad(depths, clamped(q.at + step, size), 0);
     var plane = vec2f(0.0);
     if (frame.detect.depth > 0.0) {
-        plane = vec2f(plane_step(c.at, step, c.depth, c.normal.xyz), plane_step(q.at, step, q.depth, q.normal.xyz));
+        plane = vec2f(plane_step(frame, c.at, vec2f(step), c.depth, c.normal.xyz), plane_step(frame, q.at, vec2f(step), q.depth, q.normal.xyz));
     }
     let broken = breaks(depth_b, c.depth, q.depth, depth_a, plane);
     var margin = -1.0;
@@ -235,7 +235,7 @@ fn metres(difference: f32, distance: f32) -> f32 {
     return difference * distance * distance / frame.depth_range.x;
 }
 
-fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
+fn plane_step(frame: Frame, at: vec2i, step: vec2f, depth: f32, normal: vec3f) -> f32 {
     let right = vec3f(frame.camera_right.xyz);
     let up = vec3f(frame.camera_up.xyz);
     let back = vec3f(frame.camera_back.xyz);
@@ -243,7 +243,7 @@ fn plane_step(at: vec2i, step: vec2i, depth: f32, normal: vec3f) -> f32 {
     let pixel = (vec2f(at) + 0.5) / frame.gbuffer_scale + frame.tile_origin;
     let centre = pixel - 0.5 * frame.picture_size;
     let scale = frame.pixel_footprint;
-    let step_px = vec2f(step) * vec2f(1.0, -1.0) / frame.gbuffer_scale;
+    let step_px = step * vec2f(1.0, -1.0) / frame.gbuffer_scale;
     if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
         let facing = max(n.z, MIN_FACING);
         let rise = -dot(n.xy, step_px) * scale / facing;

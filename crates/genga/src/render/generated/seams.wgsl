@@ -3,6 +3,9 @@
 @group(0) @binding(0)
 var<uniform> frame: Frame;
 
+@group(0) @binding(11)
+var own_depths: texture_2d<f32>;
+
 @group(0) @binding(2)
 var<storage, read_write> pieces: array<Piece>;
 
@@ -25,9 +28,6 @@ var base_colors: texture_2d<f32>;
 var<storage, read_write> marks: array<atomic<u32>>;
 
 @group(1) @binding(0)
-var own_depths: texture_2d<f32>;
-
-@group(1) @binding(1)
 var<storage, read> seam_texels: array<u32>;
 
 const COUNT_PIECES: u32 = 0u;

@@ -9,6 +9,9 @@ var<storage, read> draws: array<Draw>;
 @group(0) @binding(10)
 var<storage, read> lines: array<Line>;
 
+@group(0) @binding(11)
+var own_depths: texture_2d<f32>;
+
 @group(0) @binding(2)
 var<storage, read_write> pieces: array<Piece>;
 
@@ -74,6 +77,8 @@ const LINE_OBJECT: u32 = 4u;
 const LINE_SILHOUETTE: u32 = 1u;
 
 const MAX_LIGHTS: u32 = 16u;
+
+const MIN_FACING: f32 = 0.1;
 
 const NO_WIDTH: f32 = -1e30;
 
@@ -423,11 +428,10 @@ fn distance_from_depth(frame: Frame, depth: f32) -> f32 {
     return frame.depth_range.x / max(depth, 1e-30);
 }
 
-fn gone_on(texel: vec2i, pixel: vec2f) -> f32 {
-    let middle = floor((vec2f(texel) + 0.5) / frame.gbuffer_scale + frame.tile_origin);
-    let depth = depth_at(middle);
-    let slope = vec2f(common_slope(depth - depth_at(middle - vec2f(1.0, 0.0)), depth_at(middle + vec2f(1.0, 0.0)) - depth), common_slope(depth - depth_at(middle - vec2f(0.0, 1.0)), depth_at(middle + vec2f(0.0, 1.0)) - depth));
-    return depth + dot(slope, pixel - middle);
+fn gone_on(texel: vec2i, p_px: vec2f) -> f32 {
+    let depth = textureLoad(own_depths, texel, 0).x;
+    let way = (p_px - frame.tile_origin) * frame.gbuffer_scale - (vec2f(texel) + 0.5);
+    return depth + plane_step(frame, texel, way, depth, textureLoad(normals, texel, 0).xyz);
 }
 
 fn in_space(t: f32) -> f32 {
@@ -462,8 +466,9 @@ fn is_own_near(p_px: vec2f) -> bool {
     if ((frame.flags & FRAME_SMALL_DETECTION) == 0u || own.x < 0 || other.x < 0) {
         return own.x >= 0;
     }
-    let inner = floor(p_px - INNER_SIDE * line.outward);
-    let depth = depth_at(inner);
+    let pixel = floor(p_px - INNER_SIDE * line.outward);
+    let depth = depth_at(pixel);
+    let inner = pixel + depth_place();
     let miss_own = abs(gone_on(own, inner) - depth);
     let miss_other = abs(gone_on(other, inner) - depth);
     return miss_own <= miss_other;
@@ -699,6 +704,25 @@ fn outward_from(inner: vec3f) -> vec2f {
 fn picture_from_clip(frame: Frame, clip: vec4f) -> vec2f {
     let ndc = clip.xy / clip.w;
     return (ndc * vec2f(0.5, -0.5) + 0.5) * frame.picture_size;
+}
+
+fn plane_step(frame: Frame, at: vec2i, step: vec2f, depth: f32, normal: vec3f) -> f32 {
+    let right = vec3f(frame.camera_right.xyz);
+    let up = vec3f(frame.camera_up.xyz);
+    let back = vec3f(frame.camera_back.xyz);
+    let n = vec3f(dot(normal, right), dot(normal, up), dot(normal, back));
+    let pixel = (vec2f(at) + 0.5) / frame.gbuffer_scale + frame.tile_origin;
+    let centre = pixel - 0.5 * frame.picture_size;
+    let scale = frame.pixel_footprint;
+    let step_px = step * vec2f(1.0, -1.0) / frame.gbuffer_scale;
+    if ((frame.flags & FRAME_ORTHOGRAPHIC) != 0u) {
+        let facing = max(n.z, MIN_FACING);
+        let rise = -dot(n.xy, step_px) * scale / facing;
+        return rise / (frame.depth_range.y - frame.depth_range.x);
+    }
+    let v = vec3f(centre.x * scale, -centre.y * scale, -1.0);
+    let facing = max(-dot(n, v), MIN_FACING * length(v));
+    return depth * -dot(n.xy, step_px) * scale / facing;
 }
 
 fn set_course(index: u32) {

@@ -17,7 +17,7 @@ pub(crate) struct SeamPass {
 impl SeamPass {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
         let module = shader(device, "seams", include_str!("../generated/seams.wgsl"));
-        let bindings = [(0, B::Float), (1, B::Storage)];
+        let bindings = [(0, B::Storage)];
         let layout = layout(device, "seams", wgpu::ShaderStages::COMPUTE, &bindings);
         let pipeline_layout = pipeline_layout(device, "seams", &[&layouts.lines, &layout]);
         let pipeline = compute_pipeline(device, &pipeline_layout, &module, "find_seams");
@@ -34,15 +34,8 @@ impl SeamPass {
         targets: &Targets,
         timer: &mut Timer,
     ) {
-        let own = group(
-            device,
-            "seams",
-            &self.layout,
-            &[
-                (0, wgpu::BindingResource::TextureView(&targets.depth.view)),
-                (1, targets.seam_texels.as_entire_binding()),
-            ],
-        );
+        let own =
+            group(device, "seams", &self.layout, &[(0, targets.seam_texels.as_entire_binding())]);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("seams"),
             timestamp_writes: timer.compute("seams"),

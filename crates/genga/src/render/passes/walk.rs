@@ -65,6 +65,7 @@ pub(crate) fn lines_group(
             (8, R::TextureView(&targets.base.view)),
             (9, targets.marks.as_entire_binding()),
             (10, strokes.lines.as_entire_binding()),
+            (11, R::TextureView(&targets.depth.view)),
         ],
     )
 }
