@@ -463,7 +463,10 @@ fn is_own_near(p_px: vec2f) -> bool {
             other = at;
         }
     }
-    if ((frame.flags & FRAME_SMALL_DETECTION) == 0u || own.x < 0 || other.x < 0) {
+    if (!SMALL_DETECTION) {
+        return own.x >= 0;
+    }
+    if (own.x < 0 || other.x < 0) {
         return own.x >= 0;
     }
     let pixel = floor(p_px - INNER_SIDE * line.outward);
@@ -893,5 +896,7 @@ fn walk_lines(@builtin(global_invocation_id) id: vec3u, @builtin(num_workgroups)
         }
     }
 }
+
+override SMALL_DETECTION: bool = false;
 
 var<private> line: Course;

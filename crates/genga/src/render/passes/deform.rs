@@ -4,7 +4,9 @@ use std::sync::OnceLock;
 
 use super::surface::shader;
 use crate::render::gpu::{
-    bindings::{DYNAMIC_STRIDE, compute_pipeline, pipeline_layout, workgroups},
+    bindings::{
+        DYNAMIC_STRIDE, compute_pipeline, pipeline_layout, specialised_pipeline, workgroups,
+    },
     timing::Timer,
 };
 use crate::render::{layouts::Layouts, prepare::Prepared};
@@ -52,16 +54,7 @@ impl DeformPass {
     }
 
     fn smearing(&self, device: &wgpu::Device) -> wgpu::ComputePipeline {
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("deform and smear"),
-            layout: Some(&self.layout),
-            module: &self.module,
-            entry_point: Some("deform_vertices"),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("SMEAR", 1.0)],
-                ..Default::default()
-            },
-            cache: None,
-        })
+        let with = (&self.layout, &self.module);
+        specialised_pipeline(device, with, "deform_vertices", &[("SMEAR", 1.0)])
     }
 }

@@ -1,21 +1,28 @@
 //! Lines in view → pieces on the picture.
 
+use std::sync::OnceLock;
+
 use super::{link::SizePass, surface::shader};
 use crate::render::gpu::{
-    bindings::{compute_pipeline, group, pipeline_layout},
+    bindings::{compute_pipeline, group, pipeline_layout, specialised_pipeline},
     timing::Timer,
 };
 use crate::render::{layouts::Layouts, prepare::Prepared, targets::Targets};
 
 pub(crate) struct WalkPass {
+    module: wgpu::ShaderModule,
+    layout: wgpu::PipelineLayout,
     pipeline: wgpu::ComputePipeline,
+    /// Made when detection is first smaller than the picture.
+    small: OnceLock<wgpu::ComputePipeline>,
 }
 
 impl WalkPass {
     pub(crate) fn new(device: &wgpu::Device, layouts: &Layouts) -> Self {
         let module = shader(device, "walk", include_str!("../generated/walk.wgsl"));
         let layout = pipeline_layout(device, "walk", &[&layouts.lines]);
-        Self { pipeline: compute_pipeline(device, &layout, &module, "walk_lines") }
+        let pipeline = compute_pipeline(device, &layout, &module, "walk_lines");
+        Self { module, layout, pipeline, small: OnceLock::new() }
     }
 
     /// `lines` is from [`lines_group`].
@@ -34,7 +41,15 @@ impl WalkPass {
             timestamp_writes: timer.compute("walk"),
         });
         sizes.lines(device, &mut pass, prepared, targets);
-        pass.set_pipeline(&self.pipeline);
+        let pipeline = if targets.size.gbuffer_scale.is_small() {
+            self.small.get_or_init(|| {
+                let constants = [("SMALL_DETECTION", 1.0)];
+                specialised_pipeline(device, (&self.layout, &self.module), "walk_lines", &constants)
+            })
+        } else {
+            &self.pipeline
+        };
+        pass.set_pipeline(pipeline);
         pass.set_bind_group(0, lines, &[]);
         pass.dispatch_workgroups_indirect(&prepared.strokes.indirect, 64);
     }

@@ -7,7 +7,10 @@ use std::{
 
 use super::surface::{cleared, shader};
 use crate::render::gpu::{
-    bindings::{Binding as B, compute_pipeline, group, layout, pipeline_layout, workgroups},
+    bindings::{
+        Binding as B, compute_pipeline, group, layout, pipeline_layout, specialised_pipeline,
+        workgroups,
+    },
     timing::Timer,
 };
 use crate::render::{
@@ -322,11 +325,11 @@ impl WavePass {
                 ("keeps_energy", number(kind.keeps_energy)),
                 ("samples", number(samples)),
             ];
-            self.specialised(device, (&self.collect_layout, &self.collector), entry, &constants)
+            specialised_pipeline(device, (&self.collect_layout, &self.collector), entry, &constants)
         };
         let make = || ExactPipelines {
             sample_patches: collector("sample_patches", true),
-            draw_patches: self.specialised(
+            draw_patches: specialised_pipeline(
                 device,
                 (&self.smooth_layout, &self.drawer),
                 "draw_patches",
@@ -336,26 +339,6 @@ impl WavePass {
             collect_full: collector("collect_full", false),
         };
         made.entry(kind).or_insert_with(make).clone()
-    }
-
-    fn specialised(
-        &self,
-        device: &wgpu::Device,
-        (layout, module): (&wgpu::PipelineLayout, &wgpu::ShaderModule),
-        entry: &str,
-        constants: &[(&str, f64)],
-    ) -> wgpu::ComputePipeline {
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry),
-            layout: Some(layout),
-            module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
-                ..Default::default()
-            },
-            cache: None,
-        })
     }
 
     fn reference(
@@ -379,7 +362,7 @@ impl WavePass {
                 ("keeps_energy", number(keeps_energy)),
             ];
             let module = shader(device, "waves_reference", wgsl);
-            self.specialised(
+            specialised_pipeline(
                 device,
                 (&self.collect_layout, &module),
                 "collect_reference",
