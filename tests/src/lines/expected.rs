@@ -86,9 +86,31 @@ pub fn expected(triangles: &[Triangle], eye: &Eye, crease_deg: f64) -> Vec<Line>
         let is_broad = !is_edge_on(a, eye) && !is_edge_on(b, eye);
         let angle = a.outward.angle_between(b.outward).to_degrees();
         let must = is_broad && angle.min(180.0 - angle) > FLAT_CUT_DEG;
-        lines.push(Line { ends, kind: Kind::Cut, faces, slack: 0.0, must });
+        // Beside a smooth contour the plane has turned away, but not yet the normals: the mesh's own
+        // edge before it stands for the cut.
+        let turned = faces.into_iter().find(|&f| has_turned_first(&triangles[f], eye));
+        let line = match turned {
+            Some(f) => {
+                let other = if f == faces[0] { faces[1] } else { faces[0] };
+                let slack = longest_side(&triangles[f]);
+                Line { ends, kind: Kind::Cut, faces: [f, other], slack, must: false }
+            }
+            None => Line { ends, kind: Kind::Cut, faces, slack: 0.0, must },
+        };
+        lines.push(line);
     }
     lines
+}
+
+/// Whether the plane has turned away from the eye, but not all of the normals.
+fn has_turned_first(triangle: &Triangle, eye: &Eye) -> bool {
+    let faces = |i: usize| triangle.normals[i].dot(eye.towards(triangle.corners[i])) > 0.0;
+    !triangle.faces(eye) && (0..3).any(faces)
+}
+
+fn longest_side(triangle: &Triangle) -> f64 {
+    let [a, b, c] = triangle.corners;
+    (b - a).length().max((c - b).length()).max((a - c).length())
 }
 
 fn is_edge_on(triangle: &Triangle, eye: &Eye) -> bool {
@@ -189,8 +211,7 @@ fn smooth_contour(triangle: &Triangle, index: usize, facing: [f64; 3], eye: &Eye
     let nearness = triangle.corners.map(|p| -eye.distance(p));
     let gradients = [&facing, &nearness].map(|values| gradient(triangle, values));
     let must = gradients[0].dot(gradients[1]) > 0.0;
-    let [a, b, c] = triangle.corners;
-    let slack = (b - a).length().max((c - b).length()).max((a - c).length());
+    let slack = longest_side(triangle);
     Some(Line { ends, kind: Kind::Contour, faces: [index; 2], slack, must })
 }
 
