@@ -52,6 +52,21 @@ fn broad_parts_have_the_same_lines_at_every_scale() {
     }
 }
 
+#[test]
+fn seams_of_round_parts_are_whole_at_a_sixth() {
+    // A handle that leaves a body at a flat angle, as large as a few texels.
+    let size = [960, 720];
+    let style = scaled(&contour_style(3.0, size[1], ""), "1/6");
+    let scene = subject("teapot-on-box");
+    let view = &cameras(&scene, 20, size)[4];
+    let sight = Sight::new(&scene, &Pose::rest(&scene), view);
+    let figures = compare(&ink_of(&scene, &style, view), &sight, 3.0);
+    let part = figures.coverage();
+    assert!(part > 0.999, "{part} is drawn: {:?}", figures.places);
+    assert!(figures.longest_gap_px < 4.0, "a gap of {} px", figures.longest_gap_px);
+    assert_eq!(figures.astray, 0, "{:?}", figures.places);
+}
+
 /// A bar `width` pixels wide and 100 long, tilted by `degrees` from upright, 0.3 pixels off the
 /// middle of a picture of 128 pixels, with its outline.
 fn bar(width: f64, degrees: f64) -> (Scene, Vec<[DVec2; 2]>) {
