@@ -463,10 +463,7 @@ fn is_own_near(p_px: vec2f) -> bool {
             other = at;
         }
     }
-    if (!SMALL_DETECTION) {
-        return own.x >= 0;
-    }
-    if (own.x < 0 || other.x < 0) {
+    if (!SMALL_DETECTION || own.x < 0 || other.x < 0) {
         return own.x >= 0;
     }
     let pixel = floor(p_px - INNER_SIDE * line.outward);
